@@ -62,7 +62,7 @@ def measure_seek(app: App, level: Level, ticks: int = 3000) -> dict[str, float]:
     frames = bytes(1 + number // 37 % 2 for number in range(ticks))
     viewer = ReplayScreen(app, [Recording(level, Replay.of_inputs(frames, level, name="long"))])
     # The ninja of these keys may die early: the rest of the run is made here as the viewer makes it when it opens.
-    while not viewer.settled:
+    while not viewer.is_settled:
         viewer.update(0)
     viewer.end = viewer.length = ticks
     while viewer.playback.simulation.tick < ticks:

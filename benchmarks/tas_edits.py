@@ -67,7 +67,7 @@ def measure_edits(app: App, screen: TasScreen, edits: int, name: str) -> dict[st
         spent = 1000 * (time.process_time() - start)
         if editor.track is before:  # there was no key to clear, nothing to undo
             continue
-        if not editor.session.timeline.complete:
+        if not editor.session.timeline.is_complete:
             raise SystemExit("the run was not simulated up to its end in one picture")
         times.append(spent)
     times.sort()

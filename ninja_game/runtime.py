@@ -94,7 +94,7 @@ class NewestJob(Generic[Job, Result]):
                 run_in_background(self._run, self._fail)
 
     @property
-    def idle(self) -> bool:
+    def is_idle(self) -> bool:
         with self._news:
             return not self._busy
 

@@ -61,13 +61,13 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
 
 def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
     """Whether all these kernels have machine code in the cache."""
-    kept = {
+    cached = {
         path.stem.rpartition("-")[0]
         for folder in (SHIPPED, code_folder())
         for path in folder.glob("*.code")
         if path.is_file()
     }
-    return kept >= {kernel_name(entry, checked) for entry in entries}
+    return cached >= {kernel_name(entry, checked) for entry in entries}
 
 
 def attach_cache(dispatcher: Any, entry: Callable[..., Any], checked: bool) -> None:

@@ -168,18 +168,18 @@ class Batch:
             raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
         # Writable, since Numba would compile a kernel again for read-only arrays.
         keys = np.require(rows, np.uint8, ["C", "W"])
-        keys = self._pressed(keys) if press else keys
+        keys = self._with_presses(keys) if press else keys
         worlds, ticks = self._worlds, 0
         # Python threads share one lock, so the plain memory uses one; Ctrl-C is only handled between kernel calls.
         pool = thread_pool(self.threads if self.memory == "compiled" else 1)
-        at_once = max(1, 8 * WORK_SLICE // (worlds.slots * self.count))
-        for begin in range(0, len(keys), at_once):
-            part = keys[begin : begin + at_once]
+        ticks_at_once = max(1, 8 * WORK_SLICE // (worlds.slots * self.count))
+        for begin in range(0, len(keys), ticks_at_once):
+            part = keys[begin : begin + ticks_at_once]
             work = partial(worlds.run_batch, part, stop=stop)
             ticks += pool.share(work, self.count, len(part))
         return ticks
 
-    def _pressed(self, keys: Keys) -> Keys:
+    def _with_presses(self, keys: Keys) -> Keys:
         """Set JUMP_PRESSED in every tick in which the jump key goes down, and clear it in all others."""
         held = keys & JUMP_HELD
         before = np.vstack([self.records["ninja"]["jump_held"].astype(np.uint8) * JUMP_HELD, held[:-1]])
@@ -237,11 +237,11 @@ class Batch:
 
 def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
     """The chosen indices below ``count``, intp. Raises ArgumentError for an invalid choice."""
-    everyone = np.arange(count, dtype=np.intp)
+    all_indices = np.arange(count, dtype=np.intp)
     if choice is None:
-        return everyone
+        return all_indices
     if isinstance(choice, slice):
-        return everyone[choice]
+        return all_indices[choice]
     chosen = np.asarray(choice)
     if chosen.dtype == np.bool_:
         if chosen.shape != (count,):
@@ -252,7 +252,7 @@ def numbers_of(choice: WorldChoice, count: int, what: str) -> Indices:
         raise ArgumentError(f"{what} are chosen by {choice!r:.40}; expected {expected}")
     if chosen.size and not -count <= chosen.min() <= chosen.max() < count:
         raise ArgumentError(f"{what} are {chosen.min()} to {chosen.max()}; expected numbers below {count}")
-    return np.atleast_1d(everyone[chosen.astype(np.intp)])
+    return np.atleast_1d(all_indices[chosen.astype(np.intp)])
 
 
 def pairs(first: NDArray[np.float64]) -> NDArray[np.float64]:

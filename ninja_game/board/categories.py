@@ -29,7 +29,7 @@ _MAX_BYTES = 2**20  # of a ``board.toml``
 MAX_CATEGORIES = 12
 MAX_RANKS = 4  # most formulas that rank a category
 _MAX_NAME = 40
-_FAR = 5 * TICKS_PER_SECOND
+_FAR_TICKS = 5 * TICKS_PER_SECOND
 
 _KEYS: Mapping[str, type] = {"name": str, "rank": list, "when": str, "episodes": bool}
 _WORSE = {
@@ -61,7 +61,7 @@ class Category:
 
     def values(self, runs: Sequence[Run]) -> list[tuple[float, ...] | None]:
         """The numbers that rank each run, the smaller the better; None for a run outside of the category."""
-        view = {name: _all(np.array([value(run) for run in runs], np.float64)) for name, value in RUN_NUMBERS.items()}
+        view = {name: _given(np.array([value(run) for run in runs], np.float64)) for name, value in RUN_NUMBERS.items()}
         with np.errstate(all="ignore"):
             columns = [np.broadcast_to(number.value(view), len(runs)) for number in (self._truth, *self._numbers)]
         table = np.stack(columns, axis=1)
@@ -69,14 +69,14 @@ class Category:
         return [tuple(row[1:]) if good else None for row, good in zip(table.tolist(), counts.tolist(), strict=True)]
 
     @cached_property
-    def rising(self) -> bool:
+    def greatest_first(self) -> bool:
         """Whether the greatest is first: its first formula begins with a minus."""
         return bool(re.fullmatch("-[^-+]+", self.rank[0].strip()))
 
     @property
     def _shown(self) -> str:
         """Its first formula, without the minus for greatest first."""
-        return self.rank[0].strip()[self.rising :].strip()
+        return self.rank[0].strip()[self.greatest_first :].strip()
 
     @property
     def unit(self) -> str:
@@ -85,7 +85,7 @@ class Category:
 
     def text(self, value: float) -> str:
         """Its first number for people."""
-        return self.difference(-value if self.rising else value)
+        return self.difference(-value if self.greatest_first else value)
 
     def measured(self, value: float) -> str:
         """Its first number with a unit.
@@ -97,7 +97,7 @@ class Category:
         text = f"{self.text(value)} {counts}".rstrip()
         return {"1 presses": "1 press", "1 jumps": "1 jump"}.get(text, text)
 
-    def decided(self, values: Sequence[float], best: Sequence[float]) -> str:
+    def decided_by(self, values: Sequence[float], best: Sequence[float]) -> str:
         """The criterion that decides against a run with the best first number.
 
         >>> FASTEST.decided((40, -3), (40, -5)), Category("A", ("gold", "presses + jumps")).decided((0, 3), (0, 2))
@@ -112,13 +112,13 @@ class Category:
             return f"{amount:g}"
         return ("-" if amount < 0 else "") + seconds_text(round(abs(amount)))
 
-    def far(self, value: float, first: float) -> bool:
+    def is_far(self, value: float, first: float) -> bool:
         """Whether a time is so much slower than the first that its run had another aim, such as gold.
 
         >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
         (True, False, False)
         """
-        return self.unit == "Time" and value > max(2 * first, first + _FAR)
+        return self.unit == "Time" and value > max(2 * first, first + _FAR_TICKS)
 
     def gain(self, amount: float) -> str:
         """The improvement over the record before, or the deciding criterion if the first numbers are equal.
@@ -129,20 +129,20 @@ class Category:
         return self.difference(amount) if amount else ", ".join(rank.strip(" -") for rank in self.rank[1:])
 
 
-def _all(values: FormulaValues) -> Callable[[], FormulaValues]:
+def _given(values: FormulaValues) -> Callable[[], FormulaValues]:
     return lambda: values
 
 
 FASTEST = Category("Fastest", ("ticks", "-gold"), episodes=True)
 HIGHEST = Category("Highest score", ("-score", "ticks"))
-USUAL = (FASTEST, HIGHEST)
+DEFAULT_CATEGORIES = (FASTEST, HIGHEST)
 """The default categories: the time to the exit, and the score with gold (game.md §1.3)."""
 
 
 class BoardRules(NamedTuple):
     """What a board ranks, and how."""
 
-    categories: tuple[Category, ...] = USUAL
+    categories: tuple[Category, ...] = DEFAULT_CATEGORIES
     name: str = ""  #: of the board, "" for none
     unknown: str = PLAYED  #: the ladder of runs that do not say how they were made
 
@@ -163,7 +163,7 @@ def read_rules(path: Path) -> BoardRules:
         found, expected = ascii(unknown)[:60], f'"{PLAYED}" or "{ASSISTED}"'
         raise FormatError("'unknown' is no ladder", file, found=found, expected=expected)
     if tables is None and table and not others:
-        return BoardRules(USUAL, title.strip(), unknown)
+        return BoardRules(DEFAULT_CATEGORIES, title.strip(), unknown)
     if others or not isinstance(tables, list) or not 1 <= len(tables) <= MAX_CATEGORIES:
         expected = f"1 to {MAX_CATEGORIES} tables [[category]], a name, unknown"
         raise FormatError("no categories of a board", file, expected=expected)

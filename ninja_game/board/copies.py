@@ -104,9 +104,9 @@ class Common:
     def mark(self, features: Iterable[float], column: int, *, has: bool) -> None:
         """Add these features to the course in a column, or remove them."""
         rows = [self._rows.setdefault(feature, len(self._rows)) for feature in features]
-        high, wide = self._bits.shape
-        if len(self._rows) > high or column // 8 >= wide:
-            more = max(0, 2 * len(self._rows) - high), max(0, column // 8 + column // 16 + 1 - wide)
+        height, width = self._bits.shape
+        if len(self._rows) > height or column // 8 >= width:
+            more = max(0, 2 * len(self._rows) - height), max(0, column // 8 + column // 16 + 1 - width)
             self._bits = np.pad(self._bits, ((0, more[0]), (0, more[1])))
         bit = 1 << column % 8
         if has:

@@ -99,7 +99,7 @@ def judge(
     owners = ledger.owners
     runs, impossible = _parted(_possible(run, ledger, unknown) for run in runs)
     runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
-    credited, moderated = _parted(run.decided(ledger.decision(run)) for run in _of_players(runs, players))
+    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(runs, players))
     unique, copies = without_copies(credited, memo, owners)
     unique = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
     counted = tuple(_of_senders(unique, ledger, confirm))

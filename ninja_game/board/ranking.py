@@ -11,7 +11,7 @@ from itertools import zip_longest
 from math import inf
 from operator import itemgetter
 
-from ninja_game.board.categories import USUAL, Category
+from ninja_game.board.categories import DEFAULT_CATEGORIES, Category
 from ninja_game.board.runs import PLAYED, Run, RunKey, ValidatedRuns
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Episode
@@ -30,7 +30,7 @@ class Ranked:
     run: Run
     values: tuple[float, ...]  #: the numbers that rank it
     behind: float  #: by how much its first number is worse than the first run's
-    far: bool  #: as ``Category.far``
+    is_far: bool  #: as ``Category.is_far``
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Standing:
         """Count the player's best run of a level in the first category. ``best``: ticks of the level's best."""
         self.levels += 1
         self.ranks.append(ranked.place)
-        if not ranked.far:
+        if not ranked.is_far:
             self.behind.append(ranked.run.tick / max(1, best) - 1)
         if ranked.run.medal:
             self.medals[ranked.run.medal] += 1
@@ -70,7 +70,7 @@ class Ranking:
         self,
         judged: ValidatedRuns,
         shown: PublishedLevels,
-        categories: Sequence[Category] = USUAL,
+        categories: Sequence[Category] = DEFAULT_CATEGORIES,
         name: str = "",
         unknown: str = PLAYED,
     ) -> None:
@@ -107,7 +107,7 @@ class Ranking:
             shared = table and table[-1].values == values
             place = 0 if waits else table[-1].place if shared else number
             first = (table[0].values if table else values)[0]
-            table.append(Ranked(place, run, values, values[0] - first, category.far(values[0], first)))
+            table.append(Ranked(place, run, values, values[0] - first, category.is_far(values[0], first)))
         return table
 
     @cached_property
@@ -135,7 +135,7 @@ class Ranking:
             values, row = self.values(category, run), best.get(run.player)
             if run.waits and run.ladder == ladder and values and row and values < row.values:
                 first = table[0].values[0]
-                waiting.append(Ranked(0, run, values, values[0] - first, category.far(values[0], first)))
+                waiting.append(Ranked(0, run, values, values[0] - first, category.is_far(values[0], first)))
         return waiting
 
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
@@ -148,7 +148,7 @@ class Ranking:
         turns = zip_longest(*(tables.get((ladder, category), [])[:most] for ladder in self.ladders))
         runs = [ranked.run for turn in turns for ranked in turn if ranked][:most]
         best = min(self.number(category, run) for run in runs)
-        runs = [run for run in runs if not category.far(self.number(category, run), best)]
+        runs = [run for run in runs if not category.is_far(self.number(category, run), best)]
         return category, sorted(runs, key=lambda run: run.ladder != PLAYED)
 
     @cached_property

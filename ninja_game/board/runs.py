@@ -209,7 +209,7 @@ class Run(Judged):
         """The run as one that does not count."""
         return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
 
-    def decided(self, decision: Decision | None) -> Run | Rejected:
+    def decided_by(self, decision: Decision | None) -> Run | Rejected:
         """The run after a decision on it, if there is one."""
         if decision is None:
             return self

@@ -43,21 +43,21 @@ def lint(pack: Path, design: bool) -> int:
     from ninja_game.runs.packs import findings
 
     opened = Pack(pack)
-    return _tell(opened, list(findings(opened, with_design=design)))
+    return _print_findings(opened, list(findings(opened, with_design=design)))
 
 
-def _tell(pack: Pack, findings: list[PackFinding]) -> int:
+def _print_findings(pack: Pack, findings: list[PackFinding]) -> int:
     """Say what is odd; the exit code."""
-    open_ones = [finding for finding in findings if not finding.reason]
-    for finding in open_ones:
+    open_findings = [finding for finding in findings if not finding.reason]
+    for finding in open_findings:
         text = f"{pack.files.place(finding.place)}: {finding.text}" if finding.file else finding.text
         click.echo(f"{shown_text(text, 500)}. {finding.hint} [{finding.code}]")
-    count, accepted = len(open_ones), len({(finding.file, finding.code) for finding in findings if finding.reason})
+    count, accepted = len(open_findings), len({(finding.file, finding.code) for finding in findings if finding.reason})
     parts = [counted(len(pack.episodes), "episode"), counted(len(pack.levels), "level")]
     parts.append(counted(count, "finding") if count else "nothing odd")
     parts += [f"{accepted} accepted"] if accepted else []
     click.echo(f"{shown_text(pack.name)}: {', '.join(parts)}")
-    return 1 if open_ones else 0
+    return 1 if open_findings else 0
 
 
 @click.command(name="pars")
@@ -79,14 +79,14 @@ def pars(pack: Path) -> None:
     from ninja_game.runs.packs import make_pars
 
     opened = Pack(pack)
-    made = dict(with_progress(make_pars(opened), "level"))
-    for file, pars in made.items():
+    all_pars = dict(with_progress(make_pars(opened), "level"))
+    for file, pars in all_pars.items():
         times = "  ".join(f"{medal} {seconds_text(pars.par(medal)):>7}" for medal in MARGINS)
         click.echo(f"{times}  difficulty {pars.difficulty or 0:6.2f}  {shown_text(file)}")
-    Tree(pack).write(PARS, write_pars(made))
-    without = len(opened.levels) - len(made)
-    with_pars = f"{counted(len(made), 'level')} with pars"
-    click.echo(f"{with_pars}, {without} without a sound certificate; wrote {pack / PARS}")
+    Tree(pack).write(PARS, write_pars(all_pars))
+    missing = len(opened.levels) - len(all_pars)
+    with_pars = f"{counted(len(all_pars), 'level')} with pars"
+    click.echo(f"{with_pars}, {missing} without a sound certificate; wrote {pack / PARS}")
 
 
 @click.command(name="pack")
@@ -114,7 +114,7 @@ def pack_up(pack: Path, seconds: float, jobs: int, zip_path: Path | None) -> int
     with progress_line() as report:
         ready = prepare_pack(pack, seconds=seconds, jobs=jobs, say=lambda text, _: report.say(text))
     write_atomically(path, ready.zipped)
-    code = _tell(ready.pack, ready.findings)
+    code = _print_findings(ready.pack, ready.findings)
     click.echo("\n".join([*ready.notes, f"wrote {path}", ready.link]).strip())
     return code
 
@@ -163,18 +163,18 @@ def generate(seed: int | None, difficulty: int, output: Path | None, replay: Pat
         raise FileError("level and replay would be one file", str(output), hint="choose another name for one of them")
     seed = SystemRandom().randrange(10**6) if seed is None else seed
     with progress_line() as progress:
-        made = make_level(seed, difficulty, report=progress.say)
-    if made is None:
+        generated = make_level(seed, difficulty, report=progress.say)
+    if generated is None:
         click.echo(f"seed {seed} gives no level of difficulty {difficulty} that can be passed; try another one")
         return FAILED
-    level = made.named
+    level = generated.named
     output = output or free_path(Path(), level.name.lower().replace(" ", "-"), ".txt")
     write_atomically(output, write_ascii_level(level.level, **headers_of(level)))
     if replay:
-        run = named_replay(made.run, "generate", name=level.name, author=level.author, level_author=level.author)
+        run = named_replay(generated.run, "generate", name=level.name, author=level.author, level_author=level.author)
         save_replay(replay, run)
     click.echo(
-        f"{output}: {level.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
-        f"certified in {time_text(made.run.end_tick)}"
+        f"{output}: {level.name}, seed {seed}, difficulty {generated.difficulty:.1f}, "
+        f"certified in {time_text(generated.run.end_tick)}"
     )
     return 0

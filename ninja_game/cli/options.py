@@ -64,8 +64,8 @@ class LevelPath(InputPath):
         if not (is_link(value) or "\0" in str(value) or Path(value).exists()):
             own, name = own_levels(), str(value)
             if name not in own and not Path(name).suffix:
-                near = get_close_matches(name, own, 3, 0.5) or list(own)[:3]
-                self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(near)}, ...", param, ctx)
+                similar = get_close_matches(name, own, 3, 0.5) or list(own)[:3]
+                self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(similar)}, ...", param, ctx)
             value = own.get(name, value)
         return super().convert(value, param, ctx)
 
@@ -123,7 +123,7 @@ class PixelSize(click.ParamType):  # type: ignore[type-arg, unused-ignore]
         return int(width), int(height)
 
 
-def together(*options: Callable[[F], F]) -> Callable[[F], F]:
+def combined(*options: Callable[[F], F]) -> Callable[[F], F]:
     """Several options as one, in this order."""
 
     def decorate(command: F) -> F:
@@ -134,7 +134,7 @@ def together(*options: Callable[[F], F]) -> Callable[[F], F]:
     return decorate
 
 
-window_options = together(
+window_options = combined(
     click.option("--size", type=PixelSize(), help="Size of the window in px, e.g. 1584x1200."),
     click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
     click.option(
@@ -214,7 +214,7 @@ levels_jobs_option = click.option(
     "--jobs", type=JOBS, default=cores, show_default="one per core", help="Levels at the same time."
 )
 search_jobs_option = click.option("--jobs", type=JOBS, default=cores, show_default="one per core", help="Threads.")
-shortening_options = together(
+shortening_options = combined(
     click.option("--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."),
     seconds_option(60.0),
     work_option,

@@ -15,7 +15,7 @@ import click
 from ninja_game.files.shown_text import shown_character, shown_text
 
 _COLOURS = r"\n|\t|\x1b\[[0-9;]*m"
-_OURS = {
+_OWN_CONTROLS = {
     "stdout": re.compile(f"({_COLOURS})"),
     # Rich redraws progress lines in place.
     "stderr": re.compile(rf"({_COLOURS}|\r|\x1b\[(?:\?25[hl]|1A|2K))"),
@@ -50,7 +50,7 @@ def data_output() -> TextIO:
 
 def guard_terminal() -> None:
     """Wrap stdout and stderr in ``Terminal`` if they are one; files and pipes get every byte."""
-    for name, ours in _OURS.items():
+    for name, ours in _OWN_CONTROLS.items():
         stream = getattr(sys, name)
         # Names of levels may contain characters that the terminal's encoding lacks.
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")

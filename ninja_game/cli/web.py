@@ -78,7 +78,7 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int, address
             server.serve_forever()
 
 
-class _Board(click.Group):
+class _BoardGroup(click.Group):
     """A command with an argument, and with commands below it: their names come before the argument."""
 
     allow_extra_args = False
@@ -91,7 +91,7 @@ class _Board(click.Group):
         return super().make_context(info_name, args, parent, **extra)
 
 
-@click.group(cls=_Board, invoke_without_command=True, no_args_is_help=False, subcommand_metavar="")
+@click.group(cls=_BoardGroup, invoke_without_command=True, no_args_is_help=False, subcommand_metavar="")
 @click.argument("folder", type=OLD_FOLDER)
 @levels_option
 @click.option(
@@ -177,8 +177,8 @@ def board(
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.pages.frame import GAME_PAGE
 
-    keeps = bool(confirm or reject or disown or ladder or dates)
-    if keeps and not data:
+    changes_ledger = bool(confirm or reject or disown or ladder or dates)
+    if changes_ledger and not data:
         raise click.UsageError("--confirm, --reject, --disown, --ladder, --dates: name the ledger with --json")
     if site:
         check_site(site, folder)
@@ -187,7 +187,7 @@ def board(
         check_ledger(data, folder)
     decisions = [*((name, "rejected") for name in reject), *((name, "disowned") for name in disown), *ladder]
     decide = partial(moderate, decisions=decisions, reason=reason.strip(), tell=click.echo)
-    same = keeps or check is not None
+    same = changes_ledger or check is not None
     ranking, before = ranking_of(
         folder, levels, rules, check or data, jobs=jobs, again=again, decide=decide, confirm=confirm, dates=dates,
         same=same,
@@ -207,8 +207,8 @@ def board(
     for line in gone(ranking, before):
         click.echo(line)
     click.echo(summary(judged))
-    if how := unnamed(judged):
-        click.echo(how, err=True)
+    if hint := unnamed(judged):
+        click.echo(hint, err=True)
     return 0
 
 

@@ -19,7 +19,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.specs import object_type_name
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.errors import BudgetError, LevelError, NinjaGameError, reason
-from ninja_game.formats.messages import SIZE
+from ninja_game.formats.messages import FRAME_SIZE
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.lint import object_name
@@ -124,7 +124,7 @@ class Certification:
     seconds: float = 0.0  #: for the search
     #: Why it found no run in all its seconds, or the doors that its run leaves closed
     obstacles: tuple[Finding, ...] = ()
-    full: Replay | None = None  #: the best run with all gold
+    gold_run: Replay | None = None  #: the best run with all gold
     then: Callable[[Certification], object] | None = None  #: called at the end, in the solver's thread
     failed: bool = False  #: whether an error ended it
     known: tuple[bytes, ...] = ()  #: inputs of runs of the level as it was before, tried first
@@ -135,9 +135,9 @@ class Certification:
         assert self.level is not None  # noqa: S101 - for the type checker
         if self.run is None or run.end_tick < self.run.end_tick:
             self.run, self.route = run, route_of(self.level, run.inputs)
-        if run.gold >= self.level.gold and (self.full is None or run.end_tick < self.full.end_tick):
-            self.full = run
-        self.obstacles = passed_by(self.level, [known for known in (self.run, self.full) if known])
+        if run.gold >= self.level.gold and (self.gold_run is None or run.end_tick < self.gold_run.end_tick):
+            self.gold_run = run
+        self.obstacles = passed_by(self.level, [known for known in (self.run, self.gold_run) if known])
 
     @property
     def share(self) -> float:
@@ -229,15 +229,15 @@ class Certifier:
         certification = self.certification
         if certification.run is not None and not certification.failed:
             gold = f", {certification.run.gold} gold" if certification.run.gold else ""
-            shortening = ", shortening" if self.busy else ""
+            shortening = ", shortening" if self.is_busy else ""
             return f"Certified: {seconds_text(certification.run.end_tick)} s{gold}{shortening}"
         if certification.stopping.is_set() and certification.progress:
             return f"Stopped: no exit found in {certification.progress.seconds:.0f} s"
         if certification.end or certification.level is None:
             return certification.end
         if certification.progress is None:
-            why = COMPILING if self.compiling else "Another level's search comes first"
-            waited = self.waited if self.compiling else f"{self.waited} in the queue"
+            why = COMPILING if self.is_compiling else "Another level's search comes first"
+            waited = self.waited if self.is_compiling else f"{self.waited} in the queue"
             return f"{why}: {waited}. Go on editing, or save and leave"
         ticks = certification.progress.ticks
         tried = f"{ticks / 1e6:.1f} million" if ticks >= 1e6 else f"{ticks // 1000} thousand"
@@ -257,18 +257,18 @@ class Certifier:
         return f"#{place}" if place else f"{seconds:.0f} s"
 
     @property
-    def busy(self) -> bool:
+    def is_busy(self) -> bool:
         return self.certification.level is not None and not self.certification.end
 
     @property
-    def compiling(self) -> bool:
+    def is_compiling(self) -> bool:
         """Whether the solver is made ready for the search: nothing can be stopped."""
-        return self.busy and self.certification.progress is None and not self.place_in_queue
+        return self.is_busy and self.certification.progress is None and not self.place_in_queue
 
     @property
-    def waits(self) -> bool:
+    def is_waiting(self) -> bool:
         """Whether the search has begun without any report yet."""
-        return self.busy and self.certification.progress is None and self.certification.run is None
+        return self.is_busy and self.certification.progress is None and self.certification.run is None
 
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but for another level than this one."""
@@ -279,17 +279,17 @@ class Certifier:
 
         Known runs stay; those of the level before its change are tried first.
         """
-        before, waits = self.certification, self.waits
+        before, waits = self.certification, self.is_waiting
         self.stop()
         longer = 2 * before.seconds if before.obstacles and not before.run and before.level == level else self.seconds
         if not compiled_available():
             self.certification = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
         # Of two known runs the shorter one comes last: the solver reports what is no longer than those before.
-        known = tuple(run.inputs for run in (before.full, before.run) if run) or before.known
+        known = tuple(run.inputs for run in (before.gold_run, before.run) if run) or before.known
         began = before.began if waits else monotonic()
         self.certification = Certification(level, seconds=longer, began=began, known=known)
-        for run in (before.run, before.full) if before.level == level else ():
+        for run in (before.run, before.gold_run) if before.level == level else ():
             if run:
                 self.certification.take(run)
         self.solver.stopped.discard(level)
@@ -306,7 +306,7 @@ class Certifier:
     def stop(self) -> None:
         """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
         certification = self.certification
-        if self.busy:
+        if self.is_busy:
             certification.end = "Stopped"
             if certification.level and not certification.run:
                 self.solver.stopped.add(certification.level)
@@ -425,7 +425,7 @@ TOUCH = RADIUS + GOLD_RADIUS
 
 
 def place_before(
-    draft: Draft, place: tuple[float, float], size: Cell = SIZE, *, touch: bool = False
+    draft: Draft, place: tuple[float, float], size: Cell = FRAME_SIZE, *, touch: bool = False
 ) -> tuple[float, float] | None:
     """Where a test of what is said near a place begins, px; None: at the level's start.
 

@@ -164,7 +164,7 @@ class Autosave(RecoveryFile):
         """Save the draft, with its history, if it has changed and it is time; one equal to its file needs none."""
         draft = history.draft
         draft_now = None if draft == source.draft else draft
-        if draft_now is not self._kept and time.monotonic() - self._asked_at >= _SPACING and self._job.idle:
+        if draft_now is not self._kept and time.monotonic() - self._asked_at >= _SPACING and self._job.is_idle:
             self._asked_at = time.monotonic()
             self._kept = draft_now
             self._job.ask((source, history.copy()) if draft_now else None)

@@ -22,7 +22,7 @@ from ninja_game.formats.links import whole_certificate
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MAX_COLUMNS, parse_index
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, MAX_FILES, RECEIVED, Pack, certificate_name
-from ninja_game.runs.packs import RUN_KINDS, level_of
+from ninja_game.runs.packs import RUN_KINDS, level_file_of
 from ninja_game.sim.level import Level
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ def copy_pack(pack: Pack, folder: Path, name: str, *, received: bool = False, ov
     for file in set(over.files.own_names) - {*names} if over else ():
         write_file(path, file, None)
     for file in names:
-        text, level = pack.files.text(file), pack.levels.get(level_of(pack, file))
+        text, level = pack.files.text(file), pack.levels.get(level_file_of(pack, file))
         write_file(path, file, whole_certificate(text, level) if level else text)
     describe(path, {"name": name})
     if received:

@@ -16,7 +16,7 @@ from ninja_game.formats.pack.pack import PARS, Pack, certificate_name
 from ninja_game.formats.pack.pars import write_pars
 from ninja_game.levels.episodes import episode_set
 from ninja_game.levels.findings import Finding, PackFinding
-from ninja_game.runs.packs import RUN_KINDS, findings, has_gold_out_of_reach, is_certified, level_of, make_pars
+from ninja_game.runs.packs import RUN_KINDS, findings, has_gold_out_of_reach, is_certified, level_file_of, make_pars
 from ninja_game.runtime import install_hint
 from ninja_game.sim.level import Level
 
@@ -102,11 +102,11 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
             no_exit |= {level} if kind == "exit" else set()
             named_finding = finding._replace(values={}, odd=why, sought=_SOUGHT[kind])
         problems += [named_finding] if named_finding not in problems else []
-    named = {(level_of(pack, finding.file), finding.code) for finding in problems}
+    named = {(level_file_of(pack, finding.file), finding.code) for finding in problems}
 
     def follows(finding: PackFinding) -> bool:
         causes = _CAUSES.get("no-certificate" if finding.sought else finding.code, ())
-        return any((level_of(pack, finding.file), cause) in named for cause in causes)
+        return any((level_file_of(pack, finding.file), cause) in named for cause in causes)
 
     return [finding for finding in problems if not follows(finding)]
 
@@ -119,7 +119,7 @@ def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
 
 def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
     """The level file and the kind of the run that a finding about a file misses; no kind for other findings."""
-    level = level_of(pack, file)
+    level = level_file_of(pack, file)
     broken = [kind for kind in RUN_KINDS if code == "certificate" and certificate_name(level, kind) == file]
     return level, next(iter(broken), _MISSING.get(code, ""))
 

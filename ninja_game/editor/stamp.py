@@ -400,7 +400,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
     The edge of its upper left quarter, from its left end up to its top, is the cheapest path of _STRETCHES over the
     corners of cells: by the area between path and ellipse, and by the turns between stretches. The rest is its image.
     """
-    wide, high = (columns + 1) // 2, (rows + 1) // 2
+    width, height = (columns + 1) // 2, (rows + 1) // 2
 
     @cache
     def between(at: Cell, stretch: _Stretch) -> float:
@@ -413,31 +413,31 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
     @cache
     def cheapest(at: Cell, heading: float) -> tuple[float, tuple[_Stretch, ...]]:
         """The cost of the cheapest path from a corner of cells to the top, and the path; ``heading``: before it."""
-        if at == (wide, 0):
+        if at == (width, 0):
             return _TURN * heading**2, ()
         choices: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
         for stretch in _STRETCHES:
             x, y = at[0] + stretch.right, at[1] - stretch.up
             # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
-            last = x == wide and stretch.up and (columns % 2 or not stretch.right)
-            first = at[1] == high and stretch.right and (rows % 2 or not stretch.up)
-            if x <= wide and y >= 0 and stretch.begins <= heading and not (first or last):
+            last = x == width and stretch.up and (columns % 2 or not stretch.right)
+            first = at[1] == height and stretch.right and (rows % 2 or not stretch.up)
+            if x <= width and y >= 0 and stretch.begins <= heading and not (first or last):
                 cost, path = cheapest((x, y), stretch.ends)
                 cost += between(at, stretch) + _TURN * (stretch.begins - heading) ** 2
                 choices.append((cost, (stretch, *path)))
         return min(choices, key=lambda choice: choice[0])
 
-    tiles, (x, y) = dict[Cell, int](), (0, high)
-    for stretch in cheapest((0, high), 90.0)[1]:
-        tiles |= dict.fromkeys(((i, j) for i in range(x, x + stretch.right) for j in range(y, high)), FULL)
+    tiles, (x, y) = dict[Cell, int](), (0, height)
+    for stretch in cheapest((0, height), 90.0)[1]:
+        tiles |= dict.fromkeys(((i, j) for i in range(x, x + stretch.right) for j in range(y, height)), FULL)
         y -= stretch.up
         boxed = area_cells((x, y, stretch.right, stretch.up))
         tiles |= dict(zip(boxed, stretch.tiles, strict=True))
         x += stretch.right
     for i, j in area_cells((0, 0, columns, rows)):
         tile = tiles.get((min(i, columns - 1 - i), min(j, rows - 1 - j)), EMPTY)
-        tile = MIRROR.tile(tile) if i >= wide else tile
-        tiles[i, j] = FLIP.tile(tile) if j >= high else tile
+        tile = MIRROR.tile(tile) if i >= width else tile
+        tiles[i, j] = FLIP.tile(tile) if j >= height else tile
     return {cell: tile for cell, tile in tiles.items() if tile != EMPTY}
 
 
@@ -454,11 +454,11 @@ def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
     (dx,), (dy,) = open_x, open_y
     quarter = _AIR[dx, dy]
     # Width and height of the step that ends here, cells: behind it the rock rises, continues, or ends (0).
-    wide = next((n for n in range(1, _MAX_STEP) if rock(-dx * n, dy) and rock(-dx * n, 0)), _MAX_STEP)
-    high = next((n for n in range(1, _MAX_STEP) if rock(dx, -dy * n) and rock(0, -dy * n)), _MAX_STEP)
-    wide *= all(rock(-dx * n, 0) for n in range(1, wide))
-    high *= all(rock(0, -dy * n) for n in range(1, high))
-    thin, thick, behind = (*_GENTLE, (column - dx, row)) if wide > high else (*_STEEP, (column, row - dy))
-    if min(wide, high) != 1 or wide == high or behind not in near:
+    width = next((n for n in range(1, _MAX_STEP) if rock(-dx * n, dy) and rock(-dx * n, 0)), _MAX_STEP)
+    height = next((n for n in range(1, _MAX_STEP) if rock(dx, -dy * n) and rock(0, -dy * n)), _MAX_STEP)
+    width *= all(rock(-dx * n, 0) for n in range(1, width))
+    height *= all(rock(0, -dy * n) for n in range(1, height))
+    thin, thick, behind = (*_GENTLE, (column - dx, row)) if width > height else (*_STEEP, (column, row - dy))
+    if min(width, height) != 1 or width == height or behind not in near:
         return {cell: _SLOPES["1"][quarter]}
     return {cell: _SLOPES[thin][quarter], behind: _SLOPES[thick][quarter]}

@@ -132,12 +132,12 @@ class EditorTools:
         return "brush" if draws_one and self.tool not in ("select", "pick") else self.tool
 
     @property
-    def dragging(self) -> bool:
+    def is_dragging(self) -> bool:
         """Whether the selection follows the pointer."""
         return self._gesture == Gesture.DRAG
 
     @property
-    def busy(self) -> bool:
+    def is_busy(self) -> bool:
         """Whether anything is being drawn or dragged."""
         return bool(self._gesture)
 
@@ -353,7 +353,7 @@ class EditorTools:
         if self._gesture == Gesture.LINE:
             self._bend += BEND * steps
             self._draw_shape()
-        return self.busy
+        return self.is_busy
 
     def _drop(self) -> None:
         spec = self.placed(*self.pointer)
@@ -375,7 +375,7 @@ class EditorTools:
     # --- choosing ---
 
     @property
-    def framed(self) -> tuple[int, int] | None:
+    def frame_size(self) -> tuple[int, int] | None:
         """Columns and rows of the shape or the frame that is being drawn."""
         drawn = self._gesture in (*SHAPES, Gesture.CHOOSE)
         return stamps.area_between(cell_of(*self._pressed_at), self.cell)[2:] if drawn else None

@@ -97,11 +97,11 @@ def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
 
     ``first``: how many names have no number; with 0 the first one is ``stem-1.txt``.
     """
-    there: set[str] = set()
+    taken: set[str] = set()
     with suppress(OSError):
-        there = {name_key(path.name) for path in folder.iterdir()}
+        taken = {name_key(path.name) for path in folder.iterdir()}
     names = (f"{stem}-{number}{suffix}" if number > first else f"{stem}{suffix}" for number in count(1))
-    return folder / next(name for name in names if name_key(name) not in there)
+    return folder / next(name for name in names if name_key(name) not in taken)
 
 
 def export_path(folder: Path, title: str, suffix: str, first: int = 0) -> Path:

@@ -16,14 +16,14 @@ from ninja_game.sim.level import Level
 __all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays", "parse_level", "texts_of"]
 
 
-def texts_of(path: Path | str, *, named: bool = True) -> Iterator[tuple[str, str]]:
+def texts_of(path: Path | str, *, may_be_link: bool = True) -> Iterator[tuple[str, str]]:
     """The name and text of a file, of each file in a folder, or of the levels or replays in a link.
 
-    ``named``: a person gave the path, which may be a link; a path that was found is always a file.
+    ``may_be_link``: a person gave the path, which may be a link; a path that was found is always a file.
 
     Raises FileError, LinkError; OSError for a file that cannot be opened.
     """
-    if named and is_link(path):
+    if may_be_link and is_link(path):
         yield from ((LINK, text) for text in linked_texts(path, "level", "replay"))
     else:
         yield from ((str(file), read_text(file)) for file in text_files(Path(path)))
@@ -51,7 +51,7 @@ def load_level(path: Path | str, record: int = 0) -> Level:
 
     Raises LevelError as ``load_levels`` does, and for a record that the file does not have.
     """
-    return _one(load_levels(path), record, str(path))
+    return _level_at(load_levels(path), record, str(path))
 
 
 def parse_level(text: str, record: int = 0) -> Level:
@@ -59,10 +59,10 @@ def parse_level(text: str, record: int = 0) -> Level:
 
     Raises LevelError (or ReplayError for a broken replay) with line and column; also for a text that is not a level.
     """
-    return _one(parse_levels(text), record, "")
+    return _level_at(parse_levels(text), record, "")
 
 
-def _one(levels: Sequence[NamedLevel], record: int, file: str) -> Level:
+def _level_at(levels: Sequence[NamedLevel], record: int, file: str) -> Level:
     if not 0 <= record < len(levels):
         raise LevelError(f"there is no record {record}", file, expected=f"0 to {len(levels) - 1}")
     return levels[record].level

@@ -12,9 +12,9 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
 MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 8, 120, 3
-SIZE = 5, 5  # columns and rows of the frame around the cell of a message with a place, unless it has a size of its own
-ANY: Cell = 0, 0  # the cell of a message that is about none
-BAR = "|"  # separates two messages
+FRAME_SIZE = 5, 5  # columns and rows of the frame around the place of a message that has no size of its own
+NO_CELL: Cell = 0, 0  # the cell of a message that is about none
+SEPARATOR = "|"  # separates two messages
 _BREAK = r"\n"  # begins a new line of a text, in a file
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
@@ -30,7 +30,7 @@ _PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([
 _TIME = re.compile(r"(.*) for ((?!0+(?:\.0)? )[0-9]{1,2}(?:\.[0-9])?) s")
 ALL_GOLD = "all gold"
 _EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
-_WHEN = (
+_MOMENTS = (
     f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
     " then perhaps 'for 9 s' or 'for 1.5 s'"
 )
@@ -47,9 +47,9 @@ class LevelMessage(NamedTuple):
     when: str
     text: str
     number: int = 0
-    cell: Cell = ANY
+    cell: Cell = NO_CELL
     seconds: float = 0
-    size: tuple[int, int] = SIZE
+    size: tuple[int, int] = FRAME_SIZE
 
     @property
     def one_line(self) -> str:
@@ -62,7 +62,7 @@ class LevelMessage(NamedTuple):
 
     def is_about(self, x: float, y: float) -> bool:
         """Whether a switch or gold at a point, px, is what it is about."""
-        return self.cell == ANY or cell_at(x, y) == cell_index(*self.cell)
+        return self.cell == NO_CELL or cell_at(x, y) == cell_index(*self.cell)
 
     @property
     def frame(self) -> tuple[int, int, int, int]:
@@ -88,10 +88,10 @@ def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1]
     LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9.0, size=(5, 5))
     """
-    parts = value.split(BAR) if value.strip() else []
+    parts = value.split(SEPARATOR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:
         raise LevelError("too many messages in 'says'", found=str(len(parts)), expected=f"at most {MAX_MESSAGES}")
-    return tuple(map(_read, parts))
+    return tuple(map(_parse_message, parts))
 
 
 def unknown_words(text: str) -> list[str]:
@@ -109,7 +109,7 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
     return [target for target in TARGETS if target in named]
 
 
-def in_a_header(text: str) -> str:
+def header_form(text: str) -> str:
     r"""How a file writes a text: in one line.
 
     >>> in_a_header("Run,\nthen jump")
@@ -129,19 +129,19 @@ def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
     >>> with_message_moved("start: Go | at 12,5 3x1 for 9 s: Jump: here", 1, (3, 4))
     'start: Go | at 3,4 3x1 for 9 s: Jump: here'
     """
-    parts = [part.strip() for part in says.split(BAR)]
+    parts = [part.strip() for part in says.split(SEPARATOR)]
     _, _, rest = parts[number].partition(",")
     parts[number] = f"at {cell[0]},{cell[1]}" + rest.lstrip("0123456789")
-    return f" {BAR} ".join(parts)
+    return f" {SEPARATOR} ".join(parts)
 
 
-def _read(part: str) -> LevelMessage:
+def _parse_message(part: str) -> LevelMessage:
     when, colon, text = (piece.strip() for piece in part.partition(":"))
     lines = text.split(_BREAK)
     text = "\n".join(stripped for line in lines if (stripped := line.strip()))
     found = repr(part.strip()[:40])
     if not colon or not text:
-        raise LevelError("not a message in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_WHEN}")
+        raise LevelError("not a message in 'says'", found=found, expected="WHEN: text", hint=f"WHEN is {_MOMENTS}")
     if len(text) > MAX_LETTERS or not "".join(lines).isprintable():
         raise LevelError("a message in 'says'", found=found, expected=f"at most {MAX_LETTERS} printable letters")
     if len(lines) > MAX_MESSAGE_LINES:
@@ -155,10 +155,10 @@ def _read(part: str) -> LevelMessage:
     if match := _COUNTED.fullmatch(moment):
         return LevelMessage(moment.split()[0], text, int(match[1] or match[2]), seconds=seconds)
     if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[2]), int(match[3]))):
-        size = (int(match[4]), int(match[5])) if match[4] else SIZE
+        size = (int(match[4]), int(match[5])) if match[4] else FRAME_SIZE
         if size[0] <= COLUMNS and size[1] <= ROWS and (match[1] == "at" or not match[4]):
             return LevelMessage(match[1], text, cell=cell, seconds=seconds, size=size)
-    raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_WHEN)
+    raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_MOMENTS)
 
 
 def named_keys(text: str, name: Callable[[str], str]) -> str:

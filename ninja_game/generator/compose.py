@@ -30,14 +30,14 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
 
     The exit is in the vault behind one or two locked doors; or the switch is in the vault and the exit near the start.
     """
-    bare = Scene(board, tiles, board.heart[0])
-    inner = flood(board.heart[0], bare.empty - set(board.gate))
-    outside = bare.steps.keys() - inner - set(board.gate)
+    bare = Scene(board, tiles, board.vault_floor[0])
+    inner = flood(board.vault_floor[0], bare.empty - set(board.gate))
+    outside = bare.reachable.keys() - inner - set(board.gate)
     floor = [(c, r) for c, r in sorted(outside) if (c, r + 1) not in bare.empty and (c, r - 1) in bare.empty]
     hidden, locks = rng.random() < 0.65, rng.choice((1, 2, 2))
     locks = locks if hidden else rng.choice((0, 1))
     locks = locks if len(inner) <= 70 else 0
-    vault = board.heart[len(board.heart) // 2]
+    vault = board.vault_floor[len(board.vault_floor) // 2]
     if len(floor) < 12 or vault not in inner:
         return None
     steps = cache(lambda first: steps_from(first, bare.empty))
@@ -98,7 +98,7 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     board = RockBoard(rng.choice((1, 2, 2, 3)))
     LAYOUTS[layout](board, rng)
     if rng.random() < 0.5:
-        board.unroof(rng)
+        board.open_roof(rng)
     board.fill(rng)
     if rng.random() < 0.5:
         board.flip()
@@ -117,12 +117,12 @@ def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
         return None
     place_mines(scene, rng, rng.choice(_MINES))
     fill_voids(scene, rng, difficulty)
-    if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _fair(scene.level):
+    if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level) or not _is_fair(scene.level):
         return None
     return scene
 
 
-def _fair(level: Level) -> bool:
+def _is_fair(level: Level) -> bool:
     """Whether a ninja lives that stands still for ten seconds, or runs for a second to either side."""
     openings = bytes(10 * TICKS_PER_SECOND), *(bytes([key] * TICKS_PER_SECOND) for key in (Input.LEFT, Input.RIGHT))
     return all(run_level(level, inputs, memory="plain").outcome != "dead" for inputs in openings)

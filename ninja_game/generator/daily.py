@@ -19,7 +19,7 @@ from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import INDEX, PARS, certificate_name
-from ninja_game.formats.pack.pars import DIGITS, Pars, parse_pars, write_pars
+from ninja_game.formats.pack.pars import DIGEST_DIGITS, Pars, parse_pars, write_pars
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.packed import AUTHOR, PACKED, read_packed_levels
@@ -93,7 +93,7 @@ def _keep(file: Path, named: NamedLevel, run: Replay, difficulty: float) -> None
 
     replay = write_replay(named_replay(run, "generate", name=named.name, author=AUTHOR, level_author=AUTHOR))
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=named.level)[0])
-    digests = level_digest(named.level)[:DIGITS], verdict.xy_sha256[:DIGITS]
+    digests = level_digest(named.level)[:DIGEST_DIGITS], verdict.xy_sha256[:DIGEST_DIGITS]
     pars = Pars(*digests, run.end_tick, None, difficulty)
     pack, tree = file.parent, Tree(file.parent)
     if not (pack / INDEX).exists():

@@ -16,7 +16,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.gold import lay_trails
 from ninja_game.generator.layouts import LAYOUTS, name_for
-from ninja_game.generator.obstacles import more_beside, nearest_hazard
+from ninja_game.generator.obstacles import hazards_beside, nearest_hazard
 from ninja_game.generator.packed import named_level
 from ninja_game.generator.scene import Scene
 from ninja_game.runs.level_design import design, design_findings
@@ -93,10 +93,10 @@ def generate(
         lacking = len(list(design_findings(design(scene.level, run.inputs))))
         named = named_level(name_for(plan, rng), scene.level, seed, wanted, measured)
         generated = Generated(named, run, measured)
-        rank = not _near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
+        rank = not _is_near(measured, wanted, 2), lacking > 0, abs(measured - wanted)
         if best is None or rank < best[0]:
             best = rank, generated
-        if _near(measured, wanted) and not lacking:
+        if _is_near(measured, wanted) and not lacking:
             break
     return best and best[1]
 
@@ -107,7 +107,7 @@ def plan_of(seed: int | str, rng: Random) -> str:
     return layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
 
 
-def _near(measured: float, difficulty: int, times: int = 1) -> bool:
+def _is_near(measured: float, difficulty: int, times: int = 1) -> bool:
     """Whether a measured difficulty is close enough to the wanted one; ``times`` widens the tolerance."""
     return abs(measured - difficulty) <= times * max(0.5, 0.15 * difficulty)
 
@@ -122,12 +122,12 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
     measured = difficulty(scene.level, run.inputs, tries=effort.tries)
     eased = False
     for _ in range(effort.rounds):
-        if _near(measured, wanted) or stop.is_set():
+        if _is_near(measured, wanted) or stop.is_set():
             break
         path = path_of(scene.level, run)
         before = list(scene.hazards)
         if measured < wanted:
-            more = more_beside(scene, path, wanted, rng)
+            more = hazards_beside(scene, path, wanted, rng)
             if not more:
                 break
             scene.hazards.append(more)

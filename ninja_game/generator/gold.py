@@ -25,9 +25,9 @@ def round_stones(scene: Scene, _: Random) -> Iterator[list[Point]]:
     """Around a small stone, or over it and beside it."""
     small = [stone for stone in scene.stones() if len(stone) <= 25]
     for chain in scene.surfaces:
-        inside = {cell_of(*face.off(-4.0)) for face in chain}
+        inside = {cell_of(*face.out_by(-4.0)) for face in chain}
         if len(chain) <= 20 and any(inside <= piece for piece in small):
-            yield along([face.off(_OFF) for face in chain], 30.0)
+            yield points_along([face.out_by(_OFF) for face in chain], 30.0)
 
 
 def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
@@ -37,7 +37,7 @@ def along_walls(scene: Scene, rng: Random) -> Iterator[list[Point]]:
             first, count = rng.randrange(len(chain) - 4), rng.randint(4, 7)
             part = chain[first : first + count]
             if len({face[2:] for face in part}) > 1:
-                yield along([face.off(_OFF) for face in part], 20.0)
+                yield points_along([face.out_by(_OFF) for face in part], 20.0)
 
 
 def bows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
@@ -46,33 +46,35 @@ def bows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     rng.shuffle(ends)
     for x0, y0 in ends[:12]:
         for x1, y1 in ends:
-            wide, high = x1 - x0, rng.choice((40, 56, 66))
-            if 90 <= abs(wide) <= 230 and abs(y1 - y0) <= 60:
+            width, height = x1 - x0, rng.choice((40, 56, 66))
+            if 90 <= abs(width) <= 230 and abs(y1 - y0) <= 60:
                 bow = [
-                    (x0 + wide * t, y0 + (y1 - y0) * t - high * 4 * t * (1 - t))
+                    (x0 + width * t, y0 + (y1 - y0) * t - height * 4 * t * (1 - t))
                     for t in (0.1 + k * 0.02 for k in range(41))
                 ]
                 if all(scene.sees(a, b) for a, b in pairwise(bow)):
-                    yield along(bow, 24.0)
+                    yield points_along(bow, 24.0)
                     break
 
 
 def falls(scene: Scene, _: Random) -> Iterator[list[Point]]:
     """Down the middle of a shaft."""
-    for column, row in sorted(scene.steps):
+    for column, row in sorted(scene.reachable):
         shaft = [(column, row + k) for k in range(5)]
-        if all(cell in scene.steps and _walled(scene, *cell) for cell in shaft):
+        if all(cell in scene.reachable and _is_between_walls(scene, *cell) for cell in shaft):
             x, y = middle_of((column, row))
             yield [(x, y + 22.0 * k) for k in range(5)]
 
 
-def _walled(scene: Scene, column: int, row: int) -> bool:
-    return all(any((column + side * k, row) not in scene.steps for k in (1, 2)) for side in (-1, 1))
+def _is_between_walls(scene: Scene, column: int, row: int) -> bool:
+    return all(any((column + side * k, row) not in scene.reachable for k in (1, 2)) for side in (-1, 1))
 
 
 def hoard(scene: Scene, rng: Random) -> list[Point]:
     """A row or an arch on the floor of the vault, or nothing, since the exit or switch there is enough."""
-    (left, y), (right, _) = (middle_of(cell) for cell in sorted({scene.board.heart[0], scene.board.heart[-1]}))
+    (left, y), (right, _) = (
+        middle_of(cell) for cell in sorted({scene.board.vault_floor[0], scene.board.vault_floor[-1]})
+    )
     count, high = rng.choice((0, 0, 5, 6, 7)), rng.choice((0, 0, 34))
     wide = min((right - left) / 2, 12.0 * count)
     row = [((left + right) / 2 + wide * (2 * k / (count - 1) - 1), k / (count - 1)) for k in range(count)]
@@ -96,13 +98,13 @@ def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     reach = range(-2, 3)
     air = [
         cell
-        for cell in sorted(scene.steps)
-        if all((cell[0] + i, cell[1] + j) in scene.steps for i in reach for j in reach)
-        and scene.clear_of(middle_of(cell), key=60.0, other=30.0)
+        for cell in sorted(scene.reachable)
+        if all((cell[0] + i, cell[1] + j) in scene.reachable for i in reach for j in reach)
+        and scene.is_clear(middle_of(cell), key=60.0, other=30.0)
     ]
     rng.shuffle(air)
     for x, y in (
-        spot for spot in scene.board.spots if scene.clear_of((CELL * spot[0], CELL * spot[1]), key=9, other=30)
+        spot for spot in scene.board.danger_places if scene.is_clear((CELL * spot[0], CELL * spot[1]), key=9, other=30)
     ):
         yield from (form(CELL * x, CELL * y, far) for far in (size, 28, 22))
     for x, y in sorted(map(middle_of, air), key=lambda at: scene.sees(at, start)):
@@ -130,7 +132,7 @@ def sides(x: float, y: float, size: float) -> list[Point]:
     return [(x + side * size, y + k) for side in (-1, 1) for k in (-18.0, 0.0, 18.0)]
 
 
-def along(line: list[Point], step: float) -> list[Point]:
+def points_along(line: list[Point], step: float) -> list[Point]:
     """Points on a line, ``step`` px apart."""
     points, last = [line[0]], line[0]
     for point in line[1:]:
@@ -147,18 +149,18 @@ def lay_gold(scene: Scene, rng: Random) -> bool:
     """Put a few groups of gold into a scene: in the vault, around dangers, then others; tells whether it is enough."""
     count = rng.randint(MIN_PIECES + 2, MAX_PIECES)
     _lay(scene, hoard(scene, rng), count)
-    first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.spots) or 1)), (bows, 1)
+    first = (dangers, min(rng.choice((0, 1, 1, 2)), len(scene.board.danger_places) or 1)), (bows, 1)
     for pattern, most in (*first, *((other, 3) for other in rng.sample(PATTERNS, len(PATTERNS)))):
         done = 0
         for group in pattern(scene, rng):
-            if done >= most or (len(scene.baits) > 6 and len(scene.gold) > MIN_PIECES):
+            if done >= most or (len(scene.gold_middles) > 6 and len(scene.gold) > MIN_PIECES):
                 break
-            both = [group, scene.twin(group)] if rng.random() < 0.6 else [group]
+            both = [group, scene.mirrored_points(group)] if rng.random() < 0.6 else [group]
             laid = sum([_lay(scene, points, count) for points in both])
             done += laid > 0
             if laid and pattern is dangers:
-                scene.rings += scene.baits[-laid:]
-    return len(scene.gold) >= MIN_PIECES and len(scene.baits) >= 3
+                scene.rings += scene.gold_middles[-laid:]
+    return len(scene.gold) >= MIN_PIECES and len(scene.gold_middles) >= 3
 
 
 PATTERNS: tuple[Pattern, ...] = (round_stones, along_walls, bows, falls, gold_rows)
@@ -169,14 +171,14 @@ def _lay(scene: Scene, points: list[Point], count: int) -> bool:
     if len(scene.gold) >= count or len(points) < 2 or not all(_fits(scene, point) for point in points):
         return False
     centre = sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)
-    if any(dist(centre, other) < BETWEEN for other in scene.baits):
+    if any(dist(centre, other) < BETWEEN for other in scene.gold_middles):
         return False
-    scene.baits.append(centre)
+    scene.gold_middles.append(centre)
     scene.gold += [object_of(f"gold {round(px)},{round(py)}px") for px, py in points]
     return True
 
 
-def lay_about(scene: Scene, place: Point, rng: Random) -> bool:
+def lay_gold_around(scene: Scene, place: Point, rng: Random) -> bool:
     """Put a small group around a place; tells whether there was room."""
     form, size = rng.choice((bowl, cross, sides)), rng.choice((26, 32))
     return _lay(scene, form(*place, size), MAX_PIECES + 8) or _lay(scene, sides(*place, 24), MAX_PIECES + 8)
@@ -186,11 +188,11 @@ def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
     """Put up to three more groups along flights of a run that passes the level."""
     for _ in range(20):
         first = rng.randrange(40, max(41, len(run) - 60))
-        points = along(list(run[first : first + rng.randint(30, 50)]), 23.0)
-        in_air = all(not scene.stands(cell_of(*point)) for point in points[1:-1])
-        if in_air and _lay(scene, points[:7], MAX_PIECES + 8) and len(scene.baits) > 10:
+        points = points_along(list(run[first : first + rng.randint(30, 50)]), 23.0)
+        in_air = all(not scene.can_stand(cell_of(*point)) for point in points[1:-1])
+        if in_air and _lay(scene, points[:7], MAX_PIECES + 8) and len(scene.gold_middles) > 10:
             break
 
 
 def _fits(scene: Scene, point: Point) -> bool:
-    return scene.clear_of(point, key=FROM_KEY, other=APART)
+    return scene.is_clear(point, key=FROM_KEY, other=APART)

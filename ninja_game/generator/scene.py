@@ -31,9 +31,9 @@ Y, X = (1 + (np.indices((ROWS * SAMPLES, COLUMNS * SAMPLES)) + 0.5) / SAMPLES).a
 """Row and column of the samples, in cells."""
 
 
-def disc(x: float, y: float, wide: float, high: float) -> Ink:
-    """An ellipse around a point; ``wide``, ``high``: half its width and height."""
-    shape: Ink = ((X - x) / wide) ** 2 + ((Y - y) / high) ** 2 <= 1
+def disc(x: float, y: float, half_width: float, half_height: float) -> Ink:
+    """An ellipse around a point; ``half_width``, ``half_height``: half its width and height."""
+    shape: Ink = ((X - x) / half_width) ** 2 + ((Y - y) / half_height) ** 2 <= 1
     return shape
 
 
@@ -42,7 +42,7 @@ def box(left: float, top: float, right: float, bottom: float) -> Ink:
     return shape
 
 
-def poly(*corners: Point) -> Ink:
+def polygon(*corners: Point) -> Ink:
     odd = np.zeros(X.shape, bool)
     for (x0, y0), (x1, y1) in pairwise([*corners, corners[0]]):
         if y0 != y1:
@@ -60,18 +60,18 @@ def path(width: float, *points: Point) -> Ink:
     return drawn
 
 
-def dish(x: float, y: float, wide: float, high: float) -> Ink:
-    """An island with a flat top; ``wide``: half its width, ``high``: its depth."""
-    return disc(x, round(y), wide, high) & box(1, round(y), 32, 24)
+def dish(x: float, y: float, half_width: float, depth: float) -> Ink:
+    """An island with a flat top; ``half_width``: half its width, ``depth``: its depth."""
+    return disc(x, round(y), half_width, depth) & box(1, round(y), 32, 24)
 
 
 STONES: tuple[Callable[[float, float, float], Ink], ...] = (
     lambda x, y, size: dish(x, y, size, 1.3),
     lambda x, y, size: box(round(x - size), y, round(x + size), y + 1),
-    lambda x, y, size: poly((x - size, y), (x, y - 1.5), (x + size, y), (x, y + 1.5)),
+    lambda x, y, size: polygon((x - size, y), (x, y - 1.5), (x + size, y), (x, y + 1.5)),
     lambda x, y, _: box(round(x), y - 1, round(x) + 1, y + 2),
-    lambda x, y, size: poly((x - size, y + 1), (x + size, y + 1), (x + size, y - size / 2)),
-    lambda x, y, size: poly((x + size, y + 1), (x - size, y + 1), (x - size, y - size / 2)),
+    lambda x, y, size: polygon((x - size, y + 1), (x + size, y + 1), (x + size, y - size / 2)),
+    lambda x, y, size: polygon((x + size, y + 1), (x - size, y + 1), (x - size, y - size / 2)),
 )
 """Small stones around a point, by half their width: islands, slabs, diamonds, pillars, ramps."""
 
@@ -79,17 +79,17 @@ STONES: tuple[Callable[[float, float, float], Ink], ...] = (
 class RockBoard:
     """Painted rock, all solid at first. While it is ``even``, everything is also painted at the mirrored place.
 
-    ``heart``: the floor of the vault. ``gate``: the only way into it, cells for two locks of ``doors`` doors each.
-    ``spots``: places for a group of gold around a danger, in cells.
+    ``vault_floor``: the vault's floor. ``gate``: the only way into it, cells for two locks of ``doors`` doors each.
+    ``danger_places``: places for a group of gold around a danger, in cells.
     """
 
     def __init__(self, doors: int = 1) -> None:
         self.doors = doors
         self.ink = np.ones(X.shape, bool)
         self.even = True
-        self.heart: list[Cell] = []
+        self.vault_floor: list[Cell] = []
         self.gate: list[Cell] = []
-        self.spots: list[Point] = []
+        self.danger_places: list[Point] = []
         self.side = "right"  #: side of the gate's cells with the door
 
     def rock(self, *shapes: Ink) -> None:
@@ -97,29 +97,29 @@ class RockBoard:
         for shape in shapes:
             self.ink |= shape | shape[:, ::-1] if self.even else shape
 
-    def air(self, *shapes: Ink) -> None:
+    def dig(self, *shapes: Ink) -> None:
         """Dig shapes out."""
         for shape in shapes:
             self.ink &= ~(shape | shape[:, ::-1] if self.even else shape)
 
-    def vault(self, first: int, last: int, row: int, gate: int) -> None:
+    def dig_vault(self, first: int, last: int, row: int, gate: int) -> None:
         """Dig a flat floor from column to column, and a way out to the right from the column ``gate`` on."""
         top = row + 1 - self.doors
         self.ink |= box(first, row + 1, last + 1, row + 2)
         self.ink |= box(gate, top - 1, gate + 2, row + 2)
         self.ink &= ~(box(first, row - 1, gate, row + 1) | box(first, top, gate + 4, row + 1))
-        self.heart = [(column, row) for column in range(first, last + 1)]
+        self.vault_floor = [(column, row) for column in range(first, last + 1)]
         self.gate = [(gate + lock, row - k) for lock in (0, 1) for k in range(self.doors)]
 
-    def holds(self, cell: Cell) -> bool:
+    def is_rock(self, cell: Cell) -> bool:
         """Whether the middle of a cell is rock, or the cell belongs to the border."""
         return not is_inside(cell) or bool(self.ink[cell[1] * SAMPLES - SAMPLES // 2, cell[0] * SAMPLES - SAMPLES // 2])
 
-    def unroof(self, rng: Random) -> None:
+    def open_roof(self, rng: Random) -> None:
         """Close the way into the vault and open its roof instead, if there is open space not far above."""
-        column, row = rng.choice(self.heart[1:-1])
-        near = next((k for k in range(1, 6) if self.holds((column, row - k))), 6)
-        far = next((k for k in range(near, near + 6) if not self.holds((column, row - k))), 0)
+        column, row = rng.choice(self.vault_floor[1:-1])
+        near = next((k for k in range(1, 6) if self.is_rock((column, row - k))), 6)
+        far = next((k for k in range(near, near + 6) if not self.is_rock((column, row - k))), 0)
         if not near + 2 <= far:
             return
         left, right = sorted((self.gate[0][0], self.gate[-1][0]))
@@ -134,24 +134,24 @@ class RockBoard:
         for row in self.ink:  # Rock close to the border is extended to it.
             row[:SAMPLES], row[-SAMPLES:] = row[SAMPLES], row[-SAMPLES - 1]
         self.ink[:SAMPLES] = self.ink[SAMPLES]
-        sorts, even = rng.sample(STONES, 2), self.even
+        makers, even = rng.sample(STONES, 2), self.even
         for number in range(11):
             air = np.pad(~self.ink.reshape(ROWS, SAMPLES, COLUMNS, SAMPLES).any((1, 3)), 1)
-            wide, high = ((9, 6), (7, 5), (6, 4))[number // 4]
-            free = np.argwhere(sliding_window_view(air, (high, wide)).all((2, 3)))
+            width, height = ((9, 6), (7, 5), (6, 4))[number // 4]
+            free = np.argwhere(sliding_window_view(air, (height, width)).all((2, 3)))
             if not len(free):
                 continue
             top, left = rng.choice(free.tolist())
-            x, y = left + wide / 2 + rng.choice((-0.5, 0.5)), top + high // 2 + rng.choice((0, 1))
+            x, y = left + width / 2 + rng.choice((-0.5, 0.5)), top + height // 2 + rng.choice((0, 1))
             self.even = even and rng.random() < 0.6
-            self.rock(rng.choice(sorts)(x, y, rng.uniform(1.0, 1.0 + wide / 9)))
+            self.rock(rng.choice(makers)(x, y, rng.uniform(1.0, 1.0 + width / 9)))
         self.even &= even
 
     def flip(self) -> None:
         """Swap left and right."""
         self.ink, self.side = self.ink[:, ::-1], "left" if self.side == "right" else "right"
-        self.heart, self.gate = [list(map(mirrored, cells)) for cells in (self.heart, self.gate)]
-        self.spots = [(COLUMNS + 2 - x, y) for x, y in self.spots]
+        self.vault_floor, self.gate = [list(map(mirrored, cells)) for cells in (self.vault_floor, self.gate)]
+        self.danger_places = [(COLUMNS + 2 - x, y) for x, y in self.danger_places]
 
 
 def flood(first: Cell, within: set[Cell]) -> set[Cell]:
@@ -161,12 +161,12 @@ def flood(first: Cell, within: set[Cell]) -> set[Cell]:
 
 def steps_from(first: Cell, within: set[Cell]) -> dict[Cell, int]:
     """The number of steps, from cell to cell of a set, from ``first`` to every cell in reach."""
-    steps, front = {first: 0}, [first]
-    for cell in front:
-        for there in neighbours(cell):
-            if there in within and there not in steps:
-                steps[there] = steps[cell] + 1
-                front.append(there)
+    steps, frontier = {first: 0}, [first]
+    for cell in frontier:
+        for neighbour in neighbours(cell):
+            if neighbour in within and neighbour not in steps:
+                steps[neighbour] = steps[cell] + 1
+                frontier.append(neighbour)
     return steps
 
 
@@ -196,9 +196,9 @@ class Face(NamedTuple):
     away_x: float
     away_y: float
 
-    def off(self, far: float) -> Point:
-        """The point ``far`` px away from the rock."""
-        return self.x + far * self.away_x, self.y + far * self.away_y
+    def out_by(self, distance: float) -> Point:
+        """The point ``distance`` px away from the rock."""
+        return self.x + distance * self.away_x, self.y + distance * self.away_y
 
     def joins(self, other: Face) -> bool:
         """Whether two faces are neighbours on one piece of rock."""
@@ -234,11 +234,11 @@ class Scene:
         self.tiles = tiles
         self.start = start
         self.empty = {(c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)} - tiles.keys()
-        self.steps = steps_from(start, self.empty)
+        self.reachable = steps_from(start, self.empty)
         self.key: list[ObjectSpec] = []
         self.fixtures: list[ObjectSpec] = []
         self.gold: list[ObjectSpec] = []
-        self.baits: list[Point] = []  #: the middles of groups of gold
+        self.gold_middles: list[Point] = []  #: the middles of groups of gold
         self.rings: list[Point] = []  #: those of rings of gold with room for a danger inside
         self.hazards: list[list[ObjectSpec]] = []
 
@@ -267,17 +267,17 @@ class Scene:
         """Whether a cell is a full tile or belongs to the border."""
         return self.tiles.get(cell) == "#" or not is_inside(cell)
 
-    def stands(self, cell: Cell) -> bool:
+    def can_stand(self, cell: Cell) -> bool:
         """Whether the ninja can reach a cell and stand in it."""
         column, row = cell
-        return cell in self.steps and (column, row - 1) in self.empty and self.full((column, row + 1))
+        return cell in self.reachable and (column, row - 1) in self.empty and self.full((column, row + 1))
 
     def runs(self) -> list[FloorRun]:
         """The floors in reach, in reading order."""
         floors: list[FloorRun] = []
         for row in range(1, ROWS + 1):
             for column in range(1, COLUMNS + 1):
-                if not self.stands((column, row)):
+                if not self.can_stand((column, row)):
                     continue
                 if floors and floors[-1].row == row and floors[-1].column + floors[-1].length == column:
                     floors[-1] = floors[-1]._replace(length=floors[-1].length + 1)
@@ -289,13 +289,13 @@ class Scene:
     def surfaces(self) -> list[list[Face]]:
         """The rock's surface in reach: chains of neighbouring faces."""
         faces = list[Face]()
-        for cell in sorted(self.steps):
+        for cell in sorted(self.reachable):
             x, y = middle_of(cell)
             for neighbour in filter(self.full, neighbours(cell)):
                 dx, dy = neighbour[0] - cell[0], neighbour[1] - cell[1]
                 faces.append(Face(x + CELL / 2 * dx, y + CELL / 2 * dy, -dx, -dy))
         for cell, tile in sorted(self.tiles.items()):
-            if tile in _LEANS and any(neighbour in self.steps for neighbour in neighbours(cell)):
+            if tile in _LEANS and any(neighbour in self.reachable for neighbour in neighbours(cell)):
                 dx, dy = _LEANS[tile]
                 faces.append(Face(*middle_of(cell), dx * 0.7, dy * 0.7))
         chains, left = list[list[Face]](), dict.fromkeys(faces)
@@ -313,16 +313,16 @@ class Scene:
 
     def wanted(self) -> list[Point]:
         """The places that a player wants or has to touch, px: groups of gold (middle), exit, doors, switches."""
-        return [*self.baits, *(point for spec in self.key[1:] for point in object_places(spec))]
+        return [*self.gold_middles, *(point for spec in self.key[1:] for point in object_places(spec))]
 
-    def twin(self, points: list[Point]) -> list[Point]:
+    def mirrored_points(self, points: list[Point]) -> list[Point]:
         """Mirror the points at the middle column."""
         return [(2 * middle_of((MIDDLE_COLUMN, 0))[0] - x, y) for x, y in points]
 
-    def clear_of(self, point: Point, *, key: float, other: float) -> bool:
+    def is_clear(self, point: Point, *, key: float, other: float) -> bool:
         """Whether a point is in a cell in reach, ``key`` px from key objects and ``other`` px from others."""
-        ok = cell_of(*point) in self.steps
-        return ok and all(
+        is_reachable = cell_of(*point) in self.reachable
+        return is_reachable and all(
             dist(point, place) >= (key if spec.kind in _KEY else max(other, _CLEARANCE.get(spec.kind, 0.0)))
             for spec in self.objects
             for place in object_places(spec)

@@ -124,7 +124,7 @@ class EpisodeSet(NamedTuple):
         return self.pack.files.path if self.pack else None
 
     @property
-    def changeable(self) -> bool:
+    def is_changeable(self) -> bool:
         """Whether it is a folder that belongs to the player, other than that of the daily levels."""
         return bool(self.key and self.path and self.path.name != DAILY and self.path.is_dir())
 

@@ -12,7 +12,7 @@ from math import cos, dist, isnan, pi, sin, sqrt
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import ALL_GOLD, ANY, parse_messages
+from ninja_game.formats.messages import ALL_GOLD, NO_CELL, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
@@ -29,7 +29,7 @@ from ninja_game.sim.states import LOCKED, TRAP
 Squares = dict[tuple[float, float], set[tuple[float, float]]]  # places, px, by the square (column, row) that holds them
 
 
-def _made_door(world: World, spec: ObjectSpec) -> Object:
+def _door_of(world: World, spec: ObjectSpec) -> Object:
     """Make the door of a well-formed record as the game does."""
     door = Object()
     door.kind, (door.x, door.y) = kinds.DOOR, spec.values[:2]
@@ -59,36 +59,36 @@ class Ground:
         self.edges: list[int] = list(world.edges)
         self.objects = level.objects
         specs = [spec for spec in self.objects if spec.kind == kinds.DOOR and well_formed(spec)]
-        self.doors = {spec: _made_door(world, spec) for spec in set(specs)}
+        self.doors = {spec: _door_of(world, spec) for spec in set(specs)}
         self.doors_on_side = Counter(edges_of(self.doors[spec]) for spec in specs)
         self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
         ninjas = [spec for spec in level.objects if spec.kind == kinds.NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
         exits = [spec.values for spec in self.objects if spec.kind == kinds.EXIT and well_formed(spec)]
         self.ends = [
-            ("the exit", _in_squares((values[:2] for values in exits), _HIDES), _BARRING),
-            ("the exit's switch", _in_squares((values[2:] for values in exits), _HIDES), _BARRING),
-            ("the ninja's start", _in_squares([ninjas[-1].values] if start else [], _HIDES), _DEADLY),
+            ("the exit", _in_squares((values[:2] for values in exits), _COVER_PX), _BARRING),
+            ("the exit's switch", _in_squares((values[2:] for values in exits), _COVER_PX), _BARRING),
+            ("the ninja's start", _in_squares([ninjas[-1].values] if start else [], _COVER_PX), _DEADLY),
         ]
         # A ninja that starts in a tile may be pushed out on any side, so nothing is certain.
-        self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
+        self.is_certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
         self.cells: set[int] = set()
-        if self.certain:
+        if self.is_certain:
             self._fill(start)
 
     def is_full(self, cell: int) -> bool:
         return bool(tiles.SHAPE[self.level.tiles[cell]] == tiles.FULL)
 
-    def touchable(self, x: float, y: float, radius: float) -> bool:
+    def can_touch(self, x: float, y: float, radius: float) -> bool:
         """Whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
-        near = (cell for cell in _around(cell_at(x, y)) if cell in self.cells)
-        return not self.certain or any(_touches(cell, x, y, radius) for cell in near)
+        near = (cell for cell in _cells_around(cell_at(x, y)) if cell in self.cells)
+        return not self.is_certain or any(_touches(cell, x, y, radius) for cell in near)
 
     def comes_near(self, x: float, y: float, reach: tuple[float, float]) -> bool:
         """Whether a ninja in a reached cell could be within ``reach`` px of a point, across and down."""
-        (wide, high), half = reach, rules.CELL / 2
+        (width, height), half = reach, rules.CELL / 2
         centres = ((tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell]) for cell in self.cells)
-        return not self.certain or any(abs(x - a) < wide + half and abs(y - b) < high + half for a, b in centres)
+        return not self.is_certain or any(abs(x - a) < width + half and abs(y - b) < height + half for a, b in centres)
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
         """Whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
@@ -101,7 +101,7 @@ class Ground:
 
     def _fits_at(self, x: float, y: float) -> bool:
         """Whether the ninja's centre could be here with the ninja outside of all tiles."""
-        reached = cell_at(x, y) in self.cells or not self.certain
+        reached = cell_at(x, y) in self.cells or not self.is_certain
         return reached and not any(solid_at(self.level, x + a, y + b) for a, b in _RIM)
 
     def _fill(self, start: int) -> None:
@@ -119,32 +119,32 @@ class Ground:
             cell = frontier.pop()
             touched = (
                 door
-                for place in _around(cell)
+                for place in _cells_around(cell)
                 for door in waiting.get(place, ())
                 if _touches(cell, door.x, door.y, rules.DOOR_SWITCH_RADIUS)
             )
             opened = closed.intersection(edge for door in touched for edge in edges_of(door))
             closed -= opened
             frontier += [edge // 4 for edge in opened if edge // 4 in self.cells]
-            new = [*self._ways(cell, closed)]
+            new = [*self._reachable_neighbours(cell, closed)]
             self.cells.update(new)
             frontier += new
 
-    def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
+    def _reachable_neighbours(self, cell: int, closed: set[int]) -> Iterator[int]:
         """The neighbours of a cell that can be reached from it and are new."""
         for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
-            there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
+            out_edge, in_edge = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if tiles.EXISTS[cell + step] and cell + step not in self.cells and not self.is_full(cell + step):
-                tiles_open = self.edges[there] != rules.SOLID and self.edges[here] != rules.SOLID
-                if tiles_open and there not in closed and here not in closed and self._gap(cell, cell + step):
+                tiles_open = self.edges[out_edge] != rules.SOLID and self.edges[in_edge] != rules.SOLID
+                if tiles_open and out_edge not in closed and in_edge not in closed and self._has_gap(cell, cell + step):
                     yield cell + step
 
-    def _gap(self, here: int, there: int) -> bool:
+    def _has_gap(self, cell: int, neighbour: int) -> bool:
         """Whether the solid faces on both sides of a border leave a gap: two full faces are no edge."""
-        if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[here]], tiles.SHAPE[self.level.tiles[there]]):
+        if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[cell]], tiles.SHAPE[self.level.tiles[neighbour]]):
             return True
-        x, y = ((at[here] + at[there]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
-        dx, dy = ((at[there] - at[here]) / rules.CELL for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
+        x, y = ((at[cell] + at[neighbour]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
+        dx, dy = ((at[neighbour] - at[cell]) / rules.CELL for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
         for k in _ALONG:
             sides = ((x + dy * k + dx * by, y + dx * k + dy * by) for by in (-_BESIDE, _BESIDE))
             if not any(solid_at(self.level, *place) for place in sides):
@@ -152,7 +152,7 @@ class Ground:
         return False
 
 
-def _around(cell: int) -> list[int]:
+def _cells_around(cell: int) -> list[int]:
     return [cell + row + column for row in (-rules.STRIDE, 0, rules.STRIDE) for column in (-1, 0, 1)] if cell else []
 
 
@@ -173,8 +173,8 @@ _BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GU
 MANY_OBJECTS = 2000
 MANY_THINKERS = 30  # with more enemies that think in turn, one waits more than three seconds for its turn
 _NAMES_SHOWN = 3
-_OVER = 8.0  # a mine nearer than this, px, covers a piece of gold
-_HIDES = 12.5
+_OVER_GOLD = 8.0  # a mine nearer than this, px, covers a piece of gold
+_COVER_PX = 12.5
 """An object nearer than this, px, covers an exit, a switch or the start; a launch pad on their floor is 12 px away."""
 
 
@@ -206,7 +206,7 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
             odd.setdefault(finding, []).append(id_)
     of_objects = []
     for finding, ids in odd.items():
-        names = _some([object_name(objects[id_], id_) for id_ in ids[:_NAMES_SHOWN]], len(ids))
+        names = _first_names([object_name(objects[id_], id_) for id_ in ids[:_NAMES_SHOWN]], len(ids))
         of_objects.append(finding._replace(records=tuple(numbers[id_] for id_ in ids), names=names))
     whole = _level_oddities(level, objects)
     of_level = [oddity._replace(records=tuple(numbers[id_] for id_ in oddity.records)) for oddity in whole]
@@ -230,7 +230,7 @@ def _shown_place(x: float, y: float, text: str) -> str:
     return f"{tiles.COLUMN[cell]},{tiles.ROW[cell]} ({text})" if cell else text
 
 
-def _some(names: Sequence[str], count: int) -> str:
+def _first_names(names: Sequence[str], count: int) -> str:
     """The first names of a list of ``count``."""
     more = count - _NAMES_SHOWN
     return ", ".join(names[:_NAMES_SHOWN]) + (f" and {more} more" if more > 0 else "")
@@ -247,13 +247,13 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         "lock": ("locked door", doors[LOCKED]), "trap": ("trap door", doors[TRAP]),
     }  # fmt: skip
     for message in parse_messages(says):
-        lacks, places = named.get(message.when, ("", ()))
-        if lacks and not any(message.is_about(*place) for place in places):
-            cells = (message.cell,) if message.cell != ANY else ()
-            why = f"there is no {lacks}"
+        missing, places = named.get(message.when, ("", ()))
+        if missing and not any(message.is_about(*place) for place in places):
+            cells = (message.cell,) if message.cell != NO_CELL else ()
+            why = f"there is no {missing}"
             if cells:
                 column, row = message.cell
-                why += f" at {column},{row}" if lacks == "gold" else f" with its switch at {column},{row}"
+                why += f" at {column},{row}" if missing == "gold" else f" with its switch at {column},{row}"
             yield level_finding("unseen-message", cells=cells, text=message.one_line, why=why)
         elif message.when == "gold" and message.number > len(gold):
             why = f"the level has {counted(len(gold), 'piece')} of gold"
@@ -272,7 +272,7 @@ def _odd_tiles(level: Level) -> Iterator[Finding]:
     for what, some in odd.items():
         places = [(cell // ROWS + 1, cell % ROWS + 1) for cell in some]
         names = [f"tile {level.tile(*place)} at {place[0]},{place[1]}" for place in places[:_NAMES_SHOWN]]
-        yield level_finding("odd-tile", cells=tuple(places), what=what)._replace(names=_some(names, len(places)))
+        yield level_finding("odd-tile", cells=tuple(places), what=what)._replace(names=_first_names(names, len(places)))
 
 
 def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
@@ -305,9 +305,9 @@ def _waits_for_its_turn(spec: ObjectSpec) -> bool:
 
 
 def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
-    gold = _in_squares((spec.values for spec in objects if spec.kind == kinds.GOLD and well_formed(spec)), _OVER)
+    gold = _in_squares((spec.values for spec in objects if spec.kind == kinds.GOLD and well_formed(spec)), _OVER_GOLD)
     mines = (spec for spec in objects if gold and spec.kind == kinds.MINE and well_formed(spec))
-    return {spec for spec in mines if _is_near(spec.values, gold, _OVER)}
+    return {spec for spec in mines if _is_near(spec.values, gold, _OVER_GOLD)}
 
 
 def _in_squares(places: Iterable[tuple[float, ...]], side: float) -> Squares:
@@ -360,13 +360,13 @@ def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         return
     cell = cell_at(x, y)
     for what, places, barring in ground.ends:
-        if spec.kind in barring and _is_near((x, y), places, _HIDES):
+        if spec.kind in barring and _is_near((x, y), places, _COVER_PX):
             yield level_finding("covers", what=what)
     if spec.kind == kinds.FLOOR_GUARD:
         return
     if not cell:
         yield level_finding("outside-grid")
-    elif spec.kind in _IN_TILE and _deep(ground, x, y):
+    elif spec.kind in _IN_TILE and _is_deep(ground, x, y):
         border = tiles.COLUMN[cell] in (0, COLUMNS + 1) or tiles.ROW[cell] in (0, ROWS + 1)
         yield level_finding("in-border") if border else level_finding("in-tile", what=_IN_TILE[spec.kind])
     elif spec.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
@@ -382,14 +382,14 @@ _IN_TILE = {
 }
 
 
-def _deep(ground: Ground, x: float, y: float) -> bool:
+def _is_deep(ground: Ground, x: float, y: float) -> bool:
     """Whether a point is inside a tile and not on its surface, a usual place of turrets and launchers."""
     return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 
 def _untouched(ground: Ground, x: float, y: float, radius: float, switch: str = "") -> Iterator[Finding]:
     """Report a disc that no ninja can touch, or no slow one. ``switch``: "-switch" if the disc is one."""
-    if not ground.touchable(x, y, radius):
+    if not ground.can_touch(x, y, radius):
         yield level_finding("unreachable" + switch, place=_shown_place(x, y, place_text(x, y)))
     elif ground.is_in_wall(x, y, radius):
         yield level_finding("in-wall" + switch, place=_shown_place(x, y, place_text(x, y)))

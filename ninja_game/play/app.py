@@ -308,17 +308,17 @@ class App:
         left, right = self.top.notice_room
         most = min(NOTICE_WIDE, right - left - 28)
         # In the border: no text covers a level.
-        middle, size, margin, high = (left + right) / 2, _IN_BORDER, 1.0, 20.0
+        middle, size, margin, height = (left + right) / 2, _IN_BORDER, 1.0, 20.0
         lines = wrapped(theme, self.notice, most, size)
         if len(lines) > 1 or not (self.top.plays or self.top.small_notices):
-            size, margin, high = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
+            size, margin, height = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
             lines = wrapped(theme, self.notice, most, size)[:NOTICE_LINES]
         foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
-        y = max(1.0, foot - high * len(lines) - 2 * margin)
-        wide = min(most, max(theme.width(line, size) for line in lines)) + 28
-        rect = theme.window(self.surface, middle - wide / 2, y, wide, high * len(lines) + 2 * margin)
+        y = max(1.0, foot - height * len(lines) - 2 * margin)
+        width = min(most, max(theme.width(line, size) for line in lines)) + 28
+        rect = theme.window(self.surface, middle - width / 2, y, width, height * len(lines) + 2 * margin)
         for k, line in enumerate(lines):
-            top = y + margin + high * (k + 0.5) - size / 2
+            top = y + margin + height * (k + 0.5) - size / 2
             theme.text(self.surface, line, middle, top, size=size, align="centre", width=most + 4)
         return rect
 

@@ -73,13 +73,13 @@ class MainMenu(MenuScreen):
         super().enter()
 
     @property
-    def begun(self) -> bool:
+    def has_begun(self) -> bool:
         return self.player.statistics.played().attempts > 0
 
     def _where(self) -> str:
         if self.run is None:
             return "There are no levels"
-        return f"{'Go on with' if self.begun else 'Begin with'} {shown_text(self.run.entry.named.name)}"
+        return f"{'Go on with' if self.has_begun else 'Begin with'} {shown_text(self.run.entry.named.name)}"
 
     def _play(self) -> None:
         if self.run is not None:
@@ -91,7 +91,7 @@ class MainMenu(MenuScreen):
     def entries(self) -> list[tuple[str, Action, str]]:
         """A button per screen: the first as wide as the panel, then two in a row; a last single one is wide again."""
         return [
-            ("Play", self._play, "Go on where you left off" if self.begun else "Start at the very beginning"),
+            ("Play", self._play, "Go on where you left off" if self.has_begun else "Start at the very beginning"),
             ("Episodes", self._opener(EpisodeGrid), "Pick an episode, or any level in it"),
             ("Levels", self._opener(self._browser), "Play any open level on its own, or one of your own"),
             ("Daily", self._opener(DailyScreen), "A new level every day, the same for everyone"),
@@ -128,9 +128,9 @@ class MainMenu(MenuScreen):
         return [
             Button((x, y, w, _FIRST - 8), text, action, hint=hint, size=19, detail=self._where()),
             *(
-                Button((x + k % 2 * (half + 8), y + _FIRST + _ROW * (k // 2), wide, _ROW - 8), text, action, hint=hint)
+                Button((x + k % 2 * (half + 8), y + _FIRST + _ROW * (k // 2), width, _ROW - 8), text, action, hint=hint)
                 for k, (text, action, hint) in enumerate(others)
-                for wide in [half if k ^ 1 < len(others) else w]
+                for width in [half if k ^ 1 < len(others) else w]
             ),
         ]
 

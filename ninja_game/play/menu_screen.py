@@ -17,7 +17,7 @@ from ninja_game.ui.input.keys import HeldKey, scancode_of
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import draw_scenery
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Area, Theme, inside, wrapped
+from ninja_game.ui.theme import Area, Theme, contains_point, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
 _FIRST_REPEAT_MS, _REPEAT_MS, _TEXT_REPEAT_MS = 350, 70, 40
@@ -208,7 +208,7 @@ class MenuScreen(Screen):
                 self.widgets_changed()
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT:
             self.act("back")
-        elif event.type == pygame.MOUSEBUTTONDOWN and self.offers_back and inside(BACK, x, y):
+        elif event.type == pygame.MOUSEBUTTONDOWN and self.offers_back and contains_point(BACK, x, y):
             self.chime("menu-choose")
             self.close()
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
@@ -248,8 +248,8 @@ class MenuScreen(Screen):
         surface.fill(palette.tile)
         draw_scenery(surface, palette, canvas.stage, canvas.rect(24, 52, WIDTH - 48, HEIGHT - 52 - 36))
         canvas.frame_rect(surface, palette.tile, 18, 46, WIDTH - 36, HEIGHT - 52 - 24, 6, 12)
-        room = (BACK[0] if self.offers_back else WIDTH - 36) - 48
-        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=room)
+        width = (BACK[0] if self.offers_back else WIDTH - 36) - 48
+        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=width)
         if self.offers_back:
             x, y, w, h = BACK
             theme.row(surface, BACK, chosen=False, focused=False)
@@ -276,9 +276,9 @@ def _ahead(start: Widget, goal: Widget, dx: int, dy: int) -> float:
 def _aside(start: Widget, goal: Widget, dx: int) -> float:
     """Distance of two widgets across a direction, px; 0 where they overlap."""
     side = 1 if dx else 0
-    low, high = start.area[side], start.area[side] + start.area[side + 2]
+    low, height = start.area[side], start.area[side] + start.area[side + 2]
     other_low, other_high = goal.area[side], goal.area[side] + goal.area[side + 2]
-    return max(0.0, other_low - high, low - other_high)
+    return max(0.0, other_low - height, low - other_high)
 
 
 PANEL_WIDTH = 300
@@ -330,10 +330,14 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), high, side = self._box, self.row_height, self.side
+        (x, y, w, _), height, side = self._box, self.row_height, self.side
         return [
             Button(
-                (x + side, y + self.head + high * k, w - 2 * side, 0.8 * high), text, action, hint=hint, size=self.size
+                (x + side, y + self.head + height * k, w - 2 * side, 0.8 * height),
+                text,
+                action,
+                hint=hint,
+                size=self.size,
             )
             for k, (text, action, hint) in enumerate(self.rows())
         ]
@@ -422,8 +426,8 @@ class DropDown(Menu):
     @property
     def _box(self) -> Area:
         x, y, w, h = self._button
-        wide = max(self.theme.width(text, self.size, bold=True) + 16 for text, _, _ in self.rows())
-        return x, y + h + 1, max(w, 110.0, wide), 4 + self.row_height * len(self.rows())
+        width = max(self.theme.width(text, self.size, bold=True) + 16 for text, _, _ in self.rows())
+        return x, y + h + 1, max(w, 110.0, width), 4 + self.row_height * len(self.rows())
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and not self._at(*self.theme.canvas.logical(event.pos)):
@@ -479,10 +483,10 @@ class FormPanel(Menu):
         return [("", nothing, "")] * len(self._fields) + self._rows
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), high, side = self._box, self.row_height, self.side
+        (x, y, w, _), height, side = self._box, self.row_height, self.side
         entries = []
         for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True)):
-            area = x + side, y + self.head + high * k, w - 2 * side, 30
+            area = x + side, y + self.head + height * k, w - 2 * side, 30
             put = partial(self.texts.__setitem__, k)
             entries.append(TextEntry(area, prompt, now, put, longest=longest, proposed=k == 0 and now == text))
         return [*entries, *list(super().build())[len(entries) :]]

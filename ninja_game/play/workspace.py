@@ -19,7 +19,7 @@ from ninja_game.ui.input.bindings import ACTIONS, InputEvent
 from ninja_game.ui.input.gamepad import Gamepads
 from ninja_game.ui.input.keys import HeldKey, chord, key_label_of, scancode_of
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.theme import Area, Theme, contains_point
 from ninja_game.ui.widgets import Widget
 
 _FIRST_REPEAT_MS = 300  # ms before the command of a held key repeats
@@ -165,7 +165,7 @@ class Pane:
         self.area = area
 
     def contains(self, x: float, y: float) -> bool:
-        return inside(self.area, x, y)
+        return contains_point(self.area, x, y)
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         """Draw it if anything has changed; the px that changed."""

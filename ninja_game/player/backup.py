@@ -260,10 +260,10 @@ class TargetFolder:
                 return False
         for number in count(1):
             new = name.with_stem(f"{name.stem}-{number}").name if number > 1 else name.name
-            there = self._names.get(name_key(new))
-            if there is None:
+            present = self._names.get(name_key(new))
+            if present is None:
                 break
-            if self._content(there) == content:
+            if self._content(present) == content:
                 return False
             if new == SETTINGS:
                 aside = quarantine(self._tree.root / new, "before")

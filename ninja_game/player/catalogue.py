@@ -96,7 +96,7 @@ class Catalogue:
     def is_own(self, entry: Entry) -> bool:
         """Whether the player has made a level: it is in no received pack, and no daily level."""
         pack = self._pack_of(entry)
-        return entry.source == YOURS or bool(pack and pack.changeable and not pack.received)
+        return entry.source == YOURS or bool(pack and pack.is_changeable and not pack.received)
 
     def _pack_of(self, entry: Entry) -> EpisodeSet | None:
         return self.ours if entry.source == GAME else self._known.get(entry.source)
@@ -150,7 +150,7 @@ class Catalogue:
 
     def single_levels(self) -> list[Entry]:
         """All single levels: the player's, also those in folders of packs, the game's, then those of zips."""
-        packs = sorted(self.packs(), key=lambda pack: not pack.changeable)
+        packs = sorted(self.packs(), key=lambda pack: not pack.is_changeable)
         return self.own() + [entry for pack in packs for entry in pack.levels]
 
     def own(self) -> list[Entry]:

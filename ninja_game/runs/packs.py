@@ -14,7 +14,7 @@ from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
-from ninja_game.formats.pack.pars import DIGITS, Pars
+from ninja_game.formats.pack.pars import DIGEST_DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, pack_finding
 from ninja_game.runs.level_design import design, design_findings
@@ -23,7 +23,7 @@ from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 
-_verdict = lru_cache(maxsize=1024)(verify_recording)
+_cached_verdict = lru_cache(maxsize=1024)(verify_recording)
 """Each of the checks here needs a pack's certificates, and again after each change of the pack."""
 
 
@@ -39,7 +39,7 @@ class Certificate:
     @cached_property
     def verdict(self) -> Verdict:
         """The result. Raises LevelError for a level that cannot be played."""
-        return _verdict(self.recording)
+        return _cached_verdict(self.recording)
 
     @property
     def problems(self) -> list[str]:
@@ -96,32 +96,32 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     Valid entries of the pack's table are not measured again. ``tries``: as of ``difficulty``, 0 for no difficulty.
     Raises as ``certificate`` does.
     """
-    known = pack.read_pars()
+    known_pars = pack.read_pars()
     for file, named in pack.levels.items():
-        run, rich = certificate(pack, file, "exit"), certificate(pack, file, "gold")
+        run, gold_run = certificate(pack, file, "exit"), certificate(pack, file, "gold")
         if run is None or run.problems:
             continue
         pars = Pars(
-            level_digest(named.level)[:DIGITS],
-            run.verdict.xy_sha256[:DIGITS],
+            level_digest(named.level)[:DIGEST_DIGITS],
+            run.verdict.xy_sha256[:DIGEST_DIGITS],
             run.verdict.end_tick,
-            rich.verdict.end_tick if rich and not rich.problems else None,
+            gold_run.verdict.end_tick if gold_run and not gold_run.problems else None,
         )
-        before = known.get(file)
-        if before and (before.level, before.run) == (pars.level, pars.run) and before.difficulty is not None:
-            measured: float | None = before.difficulty
+        old_pars = known_pars.get(file)
+        if old_pars and (old_pars.level, old_pars.run) == (pars.level, pars.run) and old_pars.difficulty is not None:
+            measured_difficulty: float | None = old_pars.difficulty
         elif tries == 0:
-            measured = None
+            measured_difficulty = None
         else:
             inputs = run.recording.inputs[: run.verdict.ticks]
-            measured = round(difficulty(named.level, inputs, tries=tries), 2)
-        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)
+            measured_difficulty = round(difficulty(named.level, inputs, tries=tries), 2)
+        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured_difficulty)
 
 
 RUN_KINDS = ("exit", "gold")
 
 
-def level_of(pack: Pack, file: str) -> str:
+def level_file_of(pack: Pack, file: str) -> str:
     """The level file that a file is, or that it certifies; else the file."""
     if not file.startswith(CERTIFICATES):
         return file
@@ -132,7 +132,7 @@ def level_of(pack: Pack, file: str) -> str:
 
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
     """Every finding about the pack that is open: what ``findings`` finds and the pack does not accept."""
-    return (each for each in findings(pack, with_design=with_design, with_gold=with_gold) if not each.reason)
+    return (finding for finding in findings(pack, with_design=with_design, with_gold=with_gold) if not finding.reason)
 
 
 def findings(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
@@ -149,30 +149,32 @@ def findings(pack: Pack, *, with_design: bool = False, with_gold: bool = False) 
 def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[PackFinding]:
     in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
     yield from (pack_finding("unreadable", why=problem) for problem in pack.problems)
-    yield from _about_index(pack)
+    yield from _index_findings(pack)
     for file, named in pack.levels.items():
         if named.file not in in_episodes:
             yield pack_finding("single-level", file)
-    yield from _about_levels(pack)
-    yield from _about_order(pack)
+    yield from _level_findings(pack)
+    yield from _order_findings(pack)
     for file, named in pack.levels.items() if with_gold else ():
-        rich = pack.certificate(file, "gold") or not named.level.gold or has_gold_out_of_reach(named.level, named.says)
-        if not rich and is_certified(pack, file, "exit"):
+        settled = (
+            pack.certificate(file, "gold") or not named.level.gold or has_gold_out_of_reach(named.level, named.says)
+        )
+        if not settled and is_certified(pack, file, "exit"):
             yield pack_finding("no-gold-run", file)
-    sound = True
-    for finding in _about_certificates(pack):
-        sound = False
+    all_certify = True
+    for finding in _certificate_findings(pack):
+        all_certify = False
         yield finding
-    if sound:
-        yield from _about_pars(pack)
-    if sound and with_design:
+    if all_certify:
+        yield from _pars_findings(pack)
+    if all_certify and with_design:
         for file in pack.levels:
             if run := certificate(pack, file, "exit"):
                 counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
                 yield from design_findings(counts, file)
 
 
-def _about_index(pack: Pack) -> Iterator[PackFinding]:
+def _index_findings(pack: Pack) -> Iterator[PackFinding]:
     index = pack.index
     if not index.is_signed:
         yield pack_finding("no-author", INDEX)
@@ -193,7 +195,7 @@ def _about_index(pack: Pack) -> Iterator[PackFinding]:
         yield pack_finding("no-episodes", INDEX)
 
 
-def _about_levels(pack: Pack) -> Iterator[PackFinding]:
+def _level_findings(pack: Pack) -> Iterator[PackFinding]:
     names: dict[str, str] = {}  # as people read them
     levels: dict[str, str] = {}
     places: dict[str, str] = {}
@@ -214,7 +216,7 @@ def _about_levels(pack: Pack) -> Iterator[PackFinding]:
             yield PackFinding(finding.code, file, odd=finding)
 
 
-def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
+def _certificate_findings(pack: Pack) -> Iterator[PackFinding]:
     named = {pack.certificate(file, kind) for file in pack.files.levels for kind in RUN_KINDS}
     for name in pack.files.names:
         if name.startswith(CERTIFICATES) and name not in named:
@@ -231,14 +233,14 @@ def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
                 yield pack_finding("unreadable", why=str(error))
 
 
-def _about_order(pack: Pack) -> Iterator[PackFinding]:
+def _order_findings(pack: Pack) -> Iterator[PackFinding]:
     pars = {named.file: pack.pars[file] for file, named in pack.levels.items() if file in pack.pars}
     for levels in pack.episodes.values():
         for one, other in pairwise(levels):
             hard, easy = pars.get(one.file), pars.get(other.file)
             if hard and easy and hard.grade not in ("", "easy", "medium") and easy.grade == "easy":
-                file, behind = PurePath(one.file).name, PurePath(other.file).name
-                yield pack_finding("hard-before-easy", file, grade=hard.grade, other=behind, easier=easy.grade)
+                file, next_name = PurePath(one.file).name, PurePath(other.file).name
+                yield pack_finding("hard-before-easy", file, grade=hard.grade, other=next_name, easier=easy.grade)
     first, *later = [pars.get(level.file) for levels in pack.episodes.values() for level in levels] or [None]
     known = [measured.difficulty for measured in later if measured and measured.difficulty is not None]
     if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):
@@ -246,7 +248,7 @@ def _about_order(pack: Pack) -> Iterator[PackFinding]:
         yield pack_finding("hardest-first", file, grade=first.grade)
 
 
-def _about_pars(pack: Pack) -> Iterator[PackFinding]:
+def _pars_findings(pack: Pack) -> Iterator[PackFinding]:
     if PARS not in pack.files.names:
         yield pack_finding("no-pars", PARS)
         return

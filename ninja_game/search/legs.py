@@ -155,9 +155,9 @@ def _best_place(
         return float(start[first] + end[last]), 0
     stops = np.array(tour)
     into = np.append(start[first], between[stops, first])
-    out = np.append(between[last, stops], end[last])
+    costs = np.append(between[last, stops], end[last])
     skipped = np.concatenate(([start[stops[0]]], between[stops[:-1], stops[1:]], [end[stops[-1]]]))
-    added = into + out - skipped
+    added = into + costs - skipped
     place = int(np.argmin(added))
     return float(added[place]), place
 

@@ -38,7 +38,7 @@ from ninja_game.search.task import (
     SharedProgress,
     Task,
     WorkPlan,
-    find_order,
+    first_run_searches,
 )
 
 
@@ -101,7 +101,7 @@ class _Job:
 
     @property
     def _over(self) -> bool:
-        return self.state.over or bool(self.state.task.work and self.work >= self.state.task.work)
+        return self.state.is_over or bool(self.state.task.work and self.work >= self.state.task.work)
 
     @cached_property
     def _search(self) -> Search:
@@ -117,7 +117,7 @@ class _Job:
         if self.state.task.gold_wanted:
             self._follow(route, inf)
             return
-        for resolution, ticks, turn in find_order(self.number):
+        for resolution, ticks, turn in first_run_searches(self.number):
             if self._over or self.state.runs:
                 return
             if turn:

@@ -21,7 +21,7 @@ from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_LOCAL_TICKS, SLIC
 from ninja_game.sim.inputs import with_press_bits
 
 NODES = 300_000
-PART = 500_000
+SPAN_SLICE = 500_000
 """Ticks between two looks at the clock."""
 
 LENGTHS = (40, 60, 90, 150)
@@ -68,28 +68,28 @@ class SpanSearches:
         self.gold = gold
         self._search = Search(start, heuristics, nodes=NODES, along=True)
         self._inputs = b""
-        self.run = self._noted(b"")
+        self.run = self._recorded_run(b"")
         self._delay_factor = 1.0
 
-    def know(self, inputs: bytes) -> None:
+    def follow(self, inputs: bytes) -> None:
         if inputs != self._inputs:
-            self._inputs, self.run = inputs, self._noted(inputs)
+            self._inputs, self.run = inputs, self._recorded_run(inputs)
 
-    def know_joined(self, inputs: bytes, first: int, other: bytes, there: int, bound: int) -> None:
-        """Follow another run to the exit from its tick ``there`` on, from tick ``first`` of a run on.
+    def follow_joined(self, inputs: bytes, first: int, other: bytes, other_first: int, bound: int) -> None:
+        """Follow another run to the exit from its tick ``other_first`` on, from tick ``first`` of a run on.
 
         ``bound``: ticks before which a way along it must reach the exit.
         """
-        ours, theirs = self._noted(inputs[:first]), self._noted(other)
+        ours, theirs = self._recorded_run(inputs[:first]), self._recorded_run(other)
         self.run = theirs._replace(
-            moves=np.concatenate([ours.moves[:first], theirs.moves[there:]]),
-            keys=np.concatenate([ours.keys[:first], theirs.keys[there:]]),
-            masks=np.concatenate([ours.masks[:first], theirs.masks[there:]]),
-            gold=np.concatenate([ours.gold[:first], theirs.gold[there:]]),
+            moves=np.concatenate([ours.moves[:first], theirs.moves[other_first:]]),
+            keys=np.concatenate([ours.keys[:first], theirs.keys[other_first:]]),
+            masks=np.concatenate([ours.masks[:first], theirs.masks[other_first:]]),
+            gold=np.concatenate([ours.gold[:first], theirs.gold[other_first:]]),
         )
-        self._inputs = (inputs[:first] + other[there:])[:bound].ljust(bound, b"\0")
+        self._inputs = (inputs[:first] + other[other_first:])[:bound].ljust(bound, b"\0")
 
-    def _noted(self, inputs: bytes) -> KnownRun:
+    def _recorded_run(self, inputs: bytes) -> KnownRun:
         run = known_run(len(inputs), inputs)
         search = self._search
         compiled(play_known)(search.start, run, search.goal.switch_slots, len(inputs), 1)
@@ -99,7 +99,7 @@ class SpanSearches:
 
     def shorter(self, inputs: bytes, *, seed: int, spend: Spend) -> bytes | None:
         """Search random spans of a run until a shorter run is found; None if ``spend`` ends it first."""
-        self.know(inputs)
+        self.follow(inputs)
         random = np.random.default_rng([seed, PASSES])
 
         while not spend(PREPARATION_TICKS):
@@ -107,9 +107,9 @@ class SpanSearches:
             first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
             settings = draw_settings(random)
             settings = settings._replace(max_delay=settings.max_delay * self._delay_factor)
-            chosen = int(random.integers(1 << 30))
+            search_seed = int(random.integers(1 << 30))
             ticks = SPAN_TICKS << min(int(random.geometric(0.5)) - 1, DOUBLINGS)
-            run = self.search(first, first + length, settings, seed=chosen, ticks=ticks, spend=spend)
+            run = self.search(first, first + length, settings, seed=search_seed, ticks=ticks, spend=spend)
             if run:
                 return run
         return None
@@ -128,14 +128,14 @@ class SpanSearches:
             speed_price=speed_price,
         )
         search.begin_along(run, self._inputs, settings.resolution, seed=seed, gold=self.gold)
-        ended = MORE
-        while ended == MORE and search.ticks < ticks:
+        end = MORE
+        while end == MORE and search.ticks < ticks:
             before = search.ticks
-            ended = search.run(min(PART, ticks - before))
+            end = search.run(min(SPAN_SLICE, ticks - before))
             if spend(search.ticks - before):
                 break
-        early, late = ended == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
-        factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
+        is_early, is_late = end == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
+        factor = self._delay_factor * (1.15 if is_early else 0.8 if is_late else 1.0)
         self._delay_factor = min(max(factor, MIN_DELAY_FACTOR), MAX_DELAY_FACTOR)
         span = search.best()
         # A trigger belongs to the tick in which the key goes down; joining the parts can change that tick.
@@ -166,7 +166,7 @@ class RunShortener:
 
     def compile(self, inputs: bytes) -> None:
         """Compile all kernels, with a run of the level."""
-        self._spans.know(inputs)
+        self._spans.follow(inputs)
         self._spans.search(0, 1, draw_settings(np.random.default_rng(0)), seed=0, ticks=1, spend=lambda _: True)
         LocalSearch(self.start, inputs, gold=self.gold, seed=0).run(1, temperature=COOLING[0])
 

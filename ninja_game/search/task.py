@@ -93,7 +93,7 @@ def obstacle(level: Level, gold: int, progress: Progress) -> Finding:
     return at("untouched-switch", progress.untouched) if progress.untouched else at("unreached-exit", exits)
 
 
-def _never(earlier: tuple[int, ...] | None, ids: list[int]) -> tuple[int, ...]:
+def _still_missing(earlier: tuple[int, ...] | None, ids: list[int]) -> tuple[int, ...]:
     return tuple(id_ for id_ in ids if earlier is None or id_ in earlier)
 
 
@@ -131,8 +131,8 @@ class SharedProgress:
         with self.lock:
             progress = self.progress
             progress.gold = max(progress.gold, most)
-            progress.untouched = _never(progress.untouched, untouched)
-            progress.untaken = progress.untaken if untaken is None else _never(progress.untaken, untaken)
+            progress.untouched = _still_missing(progress.untouched, untouched)
+            progress.untaken = progress.untaken if untaken is None else _still_missing(progress.untaken, untaken)
             progress.last = tuple(sorted({*progress.last, *last}))
             if self.report:
                 self.report(replace(progress))
@@ -147,9 +147,9 @@ class SharedProgress:
                 self.report(replace(self.progress))
 
     @property
-    def over(self) -> bool:
-        late = not self.task.work and time.monotonic() - self.began >= self.task.seconds
-        return late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
+    def is_over(self) -> bool:
+        is_late = not self.task.work and time.monotonic() - self.began >= self.task.seconds
+        return is_late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
 
 
 WORK_PER_SECOND = 6_000_000
@@ -157,7 +157,7 @@ WORK_PER_SECOND = 6_000_000
 SEARCH_COST = 2.0
 """Ticks of a local search that a tick of a search costs: its tables and save-states double the time."""
 
-FIND = (
+FIRST_RUN_SEARCHES = (
     (Resolution(), 8_000_000),
     (Resolution(enemy_cell=24.0), 12_000_000),
     (Resolution(cell=8.0, speed=0.5, macro=8, weight=1.5), 12_000_000),
@@ -216,10 +216,10 @@ class WorkPlan:
     local: int = 8_000_000  #: ticks of each later local search
 
 
-def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:
+def first_run_searches(job: int) -> Iterator[tuple[Resolution, int, int]]:
     """Resolution, ticks and seed number of the searches for a first run, in turn; each job starts elsewhere."""
     turn = job
     while True:
-        resolution, ticks = FIND[turn % len(FIND)]
+        resolution, ticks = FIRST_RUN_SEARCHES[turn % len(FIRST_RUN_SEARCHES)]
         yield resolution, ticks, turn
         turn += 1 if job == 0 else 4

@@ -78,22 +78,22 @@ def populate(
         o.id = index
         o.slot = index + 1
         o.kind = INERT
-        p = values[index]
+        record = values[index]
         if kind == NINJA:
             o.kind = NINJA
             o.x = DEFAULT_SPAWN_X
             o.y = DEFAULT_SPAWN_Y
             if counts[index] == 2:
-                o.x = p[0]
-                o.y = p[1]
+                o.x = record[0]
+                o.y = record[1]
             place_ninja(w.ninja, o.x, o.y)
             if counts[index] == 2:
                 w.ninja.cell = cell_at(o.x, o.y)
         elif counts[index] == VALUE_COUNTS[kind]:
             o.kind = kind
-            o.x = p[0]
-            o.y = p[1]
-            create(level, w, o, p)
+            o.x = record[0]
+            o.y = record[1]
+            create(level, w, o, record)
 
 
 @fast

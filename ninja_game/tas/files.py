@@ -27,7 +27,7 @@ from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Body, Level
-from ninja_game.tas.timeline import AFTERMATH
+from ninja_game.tas.timeline import TICKS_BEHIND_END
 from ninja_game.tas.tracks import Branches, InputTrack, branches_of_json
 
 
@@ -139,8 +139,8 @@ def runs_of_level(path: Path, origin: Recording) -> list[Recording]:
     Those without a level get the run's. Raises ReplayError if there is none, and as ``load_replays`` does.
     """
     recordings = load_replays(path, level=origin.level)
-    fitting = [each for each in recordings if same_level(each, origin)]
-    others = [each for each in fitting if not same_place(each, origin)]
+    fitting = [run for run in recordings if same_level(run, origin)]
+    others = [run for run in fitting if not same_place(run, origin)]
     if not others:
         what = f"no {'other run' if fitting else 'run'} of {origin.name or 'this level'} with its body"
         raise ReplayError(what, str(path), found=f"{len(recordings)} others" if not fitting else "")
@@ -226,7 +226,7 @@ def replay_of_track(origin: Recording, track: InputTrack) -> Replay:
     record = partial(
         record_replay, origin.level, track.inputs, body=origin.body, name=origin.name, author=origin.author
     )
-    run = record(ticks=min(len(track) + AFTERMATH, MAX_TICKS))
+    run = record(ticks=min(len(track) + TICKS_BEHIND_END, MAX_TICKS))
     if run.outcome == "running":
         run = record()
     track = track.up_to(run.ticks) if run.outcome == "exit" else track

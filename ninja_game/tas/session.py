@@ -156,7 +156,7 @@ class TasSession:
     def undo(self) -> bool:
         self.end()
         if not self.history.can_redo:
-            self._undone = self._as_branch("undone") if self.timeline.complete else None
+            self._undone = self._as_branch("undone") if self.timeline.is_complete else None
         return self._step(self.history.undo)
 
     def redo(self) -> bool:
@@ -210,7 +210,7 @@ class TasSession:
 
     def keep_version(self, name: str) -> None:
         """Keep the input track as a branch, or continue the branch with its keys."""
-        inputs = [each.track.inputs for each in self.branches.all]
+        inputs = [branch.track.inputs for branch in self.branches.all]
         if self.track.inputs not in inputs:
             self.keep_branch(name)
         else:
@@ -226,7 +226,7 @@ class TasSession:
         """Keep the run that redo leads to, before an edit drops it: if neither the run nor a branch is as good."""
         self._undone = None
         known = [*self.branches.all, self._as_branch("")]
-        if undone.outcome == "exit" and not any(each.is_as_good_as(undone) for each in known):
+        if undone.outcome == "exit" and not any(track.is_as_good_as(undone) for track in known):
             kept = self.branches.as_json()
             # Branches may have been dropped since, which renumbers the others.
             kept["branches"].append(branch_as_json(replace(undone, parent=self.branches.current)))
@@ -235,7 +235,7 @@ class TasSession:
     def _keep_opened(self) -> None:
         """Keep the run as it was opened as a branch, before its first edit; that alone leaves nothing to save."""
         saved, inputs = self._kept() == self._saved_branches, self.track.inputs
-        if inputs and all(each.track.inputs != inputs for each in self.branches.all):
+        if inputs and all(branch.track.inputs != inputs for branch in self.branches.all):
             self.keep_branch(OPENED)
             self._saved_branches = self._kept() if saved else self._saved_branches
 

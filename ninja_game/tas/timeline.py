@@ -30,7 +30,7 @@ from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_NAMES
 from ninja_game.simulation import SaveState, Simulation
 from ninja_game.tas.tracks import first_different_index
 
-AFTERMATH = 40  # ticks simulated behind the last input, without a key
+TICKS_BEHIND_END = 40  # ticks simulated behind the last input, without a key
 _GROWTH = 4096  # least growth of the table, rows
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
@@ -81,7 +81,7 @@ class Timeline:
         self.level, self.body = level, body
         self._worlds = open_worlds(memory, level, box=is_box(body), at_once=True)
         self.asked_memory = memory
-        self._seen = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
+        self._initial = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
         self.watched: tuple[int, ...] = ()
         self._states: SaveStates[Any] = SaveStates(0, self._worlds.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
@@ -102,10 +102,10 @@ class Timeline:
 
     def __len__(self) -> int:
         """Ticks to simulate: those with inputs, and AFTERMATH."""
-        return len(self.inputs) + AFTERMATH
+        return len(self.inputs) + TICKS_BEHIND_END
 
     @property
-    def complete(self) -> bool:
+    def is_complete(self) -> bool:
         return self.simulated_until >= len(self)
 
     # --- edits ---
@@ -142,12 +142,12 @@ class Timeline:
         """Simulate up to a number of ticks more; whether all are simulated now."""
         self._reserve(len(self))
         stop = min(len(self), self.simulated_until + ticks)
-        self._go_on(stop - self.simulated_until)
+        self._choose_memory(stop - self.simulated_until)
         if stop > self.simulated_until:
             self._run(stop)
-        return self.complete
+        return self.is_complete
 
-    def _go_on(self, ticks: int) -> None:
+    def _choose_memory(self, ticks: int) -> None:
         """Before a number of ticks: switch to the compiled memory, once it is worth it and its kernels are ready."""
         self._ticks_on_plain += ticks
         worlds = switch_to_compiled(self._worlds, self.asked_memory, self._ticks_on_plain)
@@ -214,18 +214,18 @@ class Timeline:
     @property
     def objects(self) -> list[tuple[int, int, float, float]]:
         """Id, kind, x and y (px, at the start) of every object that can be watched."""
-        seen = enumerate(self._seen)
+        seen = enumerate(self._initial)
         return [(id_, kind, x, y) for id_, (kind, x, y, _) in seen if KIND_OF[kind].traced]
 
     def at_start(self, id_: float) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for an unknown one."""
-        if not 0 <= id_ < len(self._seen) or id_ != int(id_) or not KIND_OF[self._seen[int(id_)][0]].traced:
+        if not 0 <= id_ < len(self._initial) or id_ != int(id_) or not KIND_OF[self._initial[int(id_)][0]].traced:
             raise no_object(id_)
-        return self._seen[int(id_)]
+        return self._initial[int(id_)]
 
     @property
     def exits(self) -> list[tuple[float, float]]:
-        return [(x, y) for kind, x, y, _ in self._seen if kind == EXIT]
+        return [(x, y) for kind, x, y, _ in self._initial if kind == EXIT]
 
     @property
     def positions(self) -> NDArray[np.float64]:
@@ -250,7 +250,7 @@ class Timeline:
         return ending_text(outcome, end, self.death) if end >= 0 else ""
 
     @property
-    def goes_on(self) -> str:
+    def unended_text(self) -> str:
         """That a run without an end goes on, and the exits whose switch it has not touched."""
         world = self.world(self.simulated_until - 1)
         exits = (obj for obj in world.objects[1 : world.slots_used] if obj.kind == EXIT)
@@ -285,10 +285,10 @@ class Timeline:
         return run.world
 
 
-NAMED_APART = 3  # objects that `apart_text` names at most
+NAMED_APART = 3  # objects that `difference_text` names at most
 
 
-def apart_text(ours: World, theirs: World) -> str:
+def difference_text(ours: World, theirs: World) -> str:
     """How far two worlds are apart in what decides later ticks, in words."""
     if state_digest(ours) == state_digest(theirs):
         return "in the same state: what follows plays as before"
@@ -359,8 +359,8 @@ def exit_distance(timeline: Timeline, span: slice = slice(None)) -> FormulaValue
     ``span``: of these ticks only.
     """
     x, y = timeline.column("x")[span], timeline.column("y")[span]
-    far = [np.hypot(x - exit_x, y - exit_y) for exit_x, exit_y in timeline.exits] or [np.full(len(x), np.inf)]
-    nearest: FormulaValues = np.min(far, axis=0) - (EXIT_RADIUS + RADIUS)
+    distances = [np.hypot(x - exit_x, y - exit_y) for exit_x, exit_y in timeline.exits] or [np.full(len(x), np.inf)]
+    nearest: FormulaValues = np.min(distances, axis=0) - (EXIT_RADIUS + RADIUS)
     return nearest
 
 

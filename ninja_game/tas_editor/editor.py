@@ -77,7 +77,7 @@ class TasEditor:
         timeline = Timeline(origin.level, track.inputs, body=origin.body, memory=memory)
         timeline.simulate(len(timeline))
         return OtherRun(
-            name, track, timeline.trajectory(), made or Contributions(), timeline.ending or timeline.goes_on
+            name, track, timeline.trajectory(), made or Contributions(), timeline.ending or timeline.unended_text
         )
 
     def show_beside(self, run: OtherRun) -> None:
@@ -204,19 +204,19 @@ def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """
     w, h = size
     shared = w - 3 * _EDGE
-    high = h - _ABOVE - _BETWEEN - _BELOW
-    usual = max(USUAL_TABS, high / 3)
-    roll = min(max(MIN_ROLL, shared - (high - usual) * WIDTH / HEIGHT), MAX_ROLL)
+    height = h - _ABOVE - _BETWEEN - _BELOW
+    usual = max(USUAL_TABS, height / 3)
+    roll = min(max(MIN_ROLL, shared - (height - usual) * WIDTH / HEIGHT), MAX_ROLL)
     left = shared * preferences.left / 100 if preferences.left else shared - roll
     left = min(max(MIN_LEFT, left), shared - MIN_ROLL)
-    tabs = high * preferences.tabs / 100 if preferences.tabs else max(usual, high - ceil(left * HEIGHT / WIDTH))
-    tabs = min(max(MIN_TABS, tabs), high - MIN_LEVEL)
-    top = _ABOVE + high - tabs
+    tabs = height * preferences.tabs / 100 if preferences.tabs else max(usual, height - ceil(left * HEIGHT / WIDTH))
+    tabs = min(max(MIN_TABS, tabs), height - MIN_LEVEL)
+    top = _ABOVE + height - tabs
     aside = left + 2 * _EDGE
     return TasLayout(
         size,
         head=(0, 0, w, _HEAD),
-        level=(_EDGE, _ABOVE, left, high - tabs),
+        level=(_EDGE, _ABOVE, left, height - tabs),
         strip=(_EDGE, top + _GAP, left, _STRIP),
         tabs=(_EDGE, top + _BETWEEN, left, tabs),
         roll=(aside, _ABOVE, w - aside - _EDGE, h - _ABOVE - _BELOW),

@@ -183,13 +183,13 @@ class Head(TasPart):
         unsaved = f"{opened}{level_note}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
         origin, replay = session.origin, session.origin.replay
-        how, room = f" {replay.how}".rstrip(), right / 2 - 62
+        how, width = f" {replay.how}".rstrip(), right / 2 - 62
         begun_by = replay.made.begun_by if replay.co_authors else ""
         names = filter(None, dict.fromkeys((replay.author, begun_by, *replay.co_authors)))
         credit = ", ".join(re.sub(r"^unknown \((.*)\)$", r"\1", name) for name in names)
         name = " - ".join(filter(None, (origin.name, credit)))
-        name = theme.fit(name, room - theme.width(how, 13, bold=True), 13, bold=True) + how
-        title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=room)
+        name = theme.fit(name, width - theme.width(how, 13, bold=True), 13, bold=True) + how
+        title = theme.text(surface, name, 8, 6, size=13, bold=True, colour=palette.on_tile, width=width)
         x = title.right / theme.canvas.scale + 12
         saved = ", not saved"
         if session.is_run_saved:
@@ -200,8 +200,8 @@ class Head(TasPart):
         seconds = f", {seconds_text(end)} s" if end >= 0 else ""
         words = (session.timeline.ending or "no exit yet") + seconds
         ends = theme.text(surface, words, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
-        room = ends.left / theme.canvas.scale - 12 - x
-        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=room)
+        width = ends.left / theme.canvas.scale - 12 - x
+        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=width)
 
 
 class Foot(TasPart):
@@ -219,12 +219,12 @@ class Foot(TasPart):
         first, last = editor.selection
         selected = f", {last - first} selected" if last - first > 1 else ""
         timeline = editor.session.timeline
-        known = "" if timeline.complete else f", simulated up to {timeline.simulated_until}"
+        known = "" if timeline.is_complete else f", simulated up to {timeline.simulated_until}"
         other = editor.beside if editor.ghosts else None
         other_note = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
         behind = ", behind the run's" if editor.cursor >= len(editor.track) else " of"
         text = f"tick {editor.cursor}{behind} {len(editor.track)}{selected}{known}{other_note}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
-        room = w - 28 - theme.width(text, 9.5)
-        theme.text(surface, hint, w - 8, y + 5, size=9.5, colour=palette.on_tile, align="right", width=room)
+        width = w - 28 - theme.width(text, 9.5)
+        theme.text(surface, hint, w - 8, y + 5, size=9.5, colour=palette.on_tile, align="right", width=width)

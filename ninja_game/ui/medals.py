@@ -54,9 +54,9 @@ def draw_medal(
             ends = (middle[0] - half, middle[1] + half), (middle[0] + half, middle[1] - half)
             canvas.line(surface, bright, *ends, size * 0.09)
     letter = radius * 1.16
-    at = y - letter / 2
+    top = y - letter / 2
     ink = _INK if reached else palette.faint
-    theme.text(surface, medal[0].upper(), x, at, size=letter, colour=ink, align="centre", bold=True, height=size)
+    theme.text(surface, medal[0].upper(), x, top, size=letter, colour=ink, align="centre", bold=True, height=size)
 
 
 def draw_stamp(

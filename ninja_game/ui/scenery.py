@@ -101,8 +101,8 @@ def _strata(sheet: pygame.Surface, numbers: Numbers, slant: float = 0.1, wave: f
         top += 9 + 26 * next(numbers)
     for _ in range(70):
         # Stones lie in it, and cracks run down from some of them.
-        x, y, wide = _WIDE * next(numbers), _HIGH * next(numbers), 3 + 5 * next(numbers)
-        rim = [(x + wide * cos(turn), y + 0.6 * wide * sin(turn)) for turn in range(6)]
+        x, y, width = _WIDE * next(numbers), _HIGH * next(numbers), 3 + 5 * next(numbers)
+        rim = [(x + width * cos(turn), y + 0.6 * width * sin(turn)) for turn in range(6)]
         pygame.draw.polygon(sheet, _white(numbers), rim)
         if next(numbers) < 0.3:
             line = [(x + 14 * (next(numbers) - 0.5), y + 9 * down) for down in range(5)]
@@ -121,9 +121,9 @@ def _bricks(sheet: pygame.Surface, numbers: Numbers) -> None:
     for y in range(0, _HIGH, 12):
         x = -24.0 * next(numbers)
         while x < _WIDE:
-            wide = 14 + 24 * next(numbers)
-            pygame.draw.rect(sheet, _white(numbers), (x + 1, y + 1, wide - 2, 10))
-            x += wide
+            width = 14 + 24 * next(numbers)
+            pygame.draw.rect(sheet, _white(numbers), (x + 1, y + 1, width - 2, 10))
+            x += width
 
 
 def _facets(sheet: pygame.Surface, numbers: Numbers) -> None:
@@ -164,11 +164,11 @@ def _hills(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Nu
 
 def _dunes(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
     """Dunes: each rises slowly and falls steeply behind its crest."""
-    wide, high = 150 + 120 * next(numbers), 34 + 26 * next(numbers)
+    width, high = 150 + 120 * next(numbers), 34 + 26 * next(numbers)
     start, crest = next(numbers), 0.62 + 0.2 * next(numbers)
 
     def height(x: float) -> float:
-        along = (x / wide + start) % 1
+        along = (x / width + start) % 1
         risen = along / crest if along < crest else (1 - along) / (1 - crest)
         return base - high * risen * risen * (3 - 2 * risen) - 6 * sin(x / 47)
 
@@ -191,11 +191,11 @@ def _towers(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: N
     """Houses and towers with flat or pointed roofs."""
     x = -20.0 * next(numbers)
     while x < _WIDE:
-        wide, top = 14 + 26 * next(numbers), base + 30 - 110 * next(numbers) ** 2
-        pygame.draw.rect(sheet, colour, (x, top, wide + 1, _HIGH - top))
+        width, top = 14 + 26 * next(numbers), base + 30 - 110 * next(numbers) ** 2
+        pygame.draw.rect(sheet, colour, (x, top, width + 1, _HIGH - top))
         if next(numbers) < 0.45:
-            pygame.draw.polygon(sheet, colour, [(x - 2, top), (x + wide / 2, top - wide), (x + wide + 2, top)])
-        x += wide + (10 * next(numbers) if next(numbers) < 0.4 else 0)
+            pygame.draw.polygon(sheet, colour, [(x - 2, top), (x + width / 2, top - width), (x + width + 2, top)])
+        x += width + (10 * next(numbers) if next(numbers) < 0.4 else 0)
 
 
 def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers: Numbers) -> None:
@@ -203,13 +203,13 @@ def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers:
     _ridge(sheet, colour, lambda x: base + 44 - 10 * sin(x / 31 + base))
     x = 10 * next(numbers)
     while x < _WIDE + 20:
-        wide, top, lean = 10 + 18 * next(numbers), base + 20 - 100 * next(numbers), 70 * (next(numbers) - 0.5)
+        width, top, lean = 10 + 18 * next(numbers), base + 20 - 100 * next(numbers), 70 * (next(numbers) - 0.5)
         tip = x + lean, top
-        shoulder = wide * 0.5
+        shoulder = width * 0.5
         pygame.draw.polygon(
             sheet,
             colour,
-            [(x - wide, _HIGH), (tip[0] - shoulder, top + 24), tip, (tip[0] + shoulder, top + 34), (x + wide, _HIGH)],
+            [(x - width, _HIGH), (tip[0] - shoulder, top + 24), tip, (tip[0] + shoulder, top + 34), (x + width, _HIGH)],
         )
         x += 16 + 30 * next(numbers)
 

@@ -11,12 +11,12 @@ import pygame
 
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import PAD, TEXT, Widget
+from ninja_game.ui.widgets import PAD, TEXT_SIZE, Widget
 
 MAX_ENTRY = 40  # most characters, unless a field says otherwise
 _NO_TEXT = {"tab", "escape", "return", "kp_enter", "up", "down", "pageup", "pagedown", "insert"}
 _FUNCTION_KEY = re.compile("f[0-9]+")
-TEXT_LINE = TEXT + 4.0  # height of a line of several, px
+TEXT_LINE = TEXT_SIZE + 4.0  # height of a line of several, px
 DOUBLE_MS = 400  # ms in which a second click selects a word, a third one everything
 
 
@@ -142,28 +142,28 @@ class TextEntry(Widget):
         left, text = x + PAD, self.text
         palette, fill = theme.palette, theme.canvas.fill_rect
         self._high, room = self._lay_out(theme, left, w - 2 * PAD - 4)
-        high, cursor = self._high, self._cursor_row
+        height, cursor = self._high, self._cursor_row
         self._top = max(0, min(max(self._top, cursor - room + 1), cursor, len(self._rows) - room))
-        self._upper = y + (h - room * high) / 2
+        self._upper = y + (h - room * height) / 2
         for row, (first, stops) in enumerate(self._rows[self._top : self._top + room], self._top):
-            top, last = self._upper + (row - self._top) * high, first + len(stops) - 1
+            top, last = self._upper + (row - self._top) * height, first + len(stops) - 1
             begin, end, place = (
                 stops[min(max(first, k), last) - first] for k in (*self.edited.span, self.edited.cursor)
             )
             if begin < end and focused:
-                fill(surface, palette.bar_full, begin - 1, top, end - begin + 2, high)
+                fill(surface, palette.bar_full, begin - 1, top, end - begin + 2, height)
             line, colour = (text[first:last].rstrip("\n"), palette.text) if text else (self.prompt, palette.faint)
-            wide = None if text else w - 2 * PAD
-            theme.text(surface, line, left, top + (high - TEXT) / 2, size=TEXT, colour=colour, width=wide)
+            width = None if text else w - 2 * PAD
+            theme.text(surface, line, left, top + (height - TEXT_SIZE) / 2, size=TEXT_SIZE, colour=colour, width=width)
             if focused and row == cursor:
-                fill(surface, palette.accent, place - 1, top + 1, 1.5, high - 2)
+                fill(surface, palette.accent, place - 1, top + 1, 1.5, height - 2)
 
     def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:
         """Measure the lines; the height of each, px, and how many have room."""
         self._scroll(theme, room)
         self._measure(theme, left, room)
         self._rows = [(self._first, self._stops)]
-        return TEXT + 6.0, 1
+        return TEXT_SIZE + 6.0, 1
 
     @property
     def _cursor_row(self) -> int:
@@ -172,16 +172,16 @@ class TextEntry(Widget):
     def _scroll(self, theme: Theme, room: float) -> None:
         text, cursor = self.text, self.edited.cursor
         self._first = min(self._first, cursor)
-        while theme.width(text[self._first : cursor], TEXT) > room:
+        while theme.width(text[self._first : cursor], TEXT_SIZE) > room:
             self._first += 1
-        while self._first > 0 and theme.width(text[self._first - 1 :], TEXT) <= room:
+        while self._first > 0 and theme.width(text[self._first - 1 :], TEXT_SIZE) <= room:
             self._first -= 1
 
     def _measure(self, theme: Theme, left: float, room: float) -> str:
         """The visible part; ``_stops`` gets the places between its characters."""
         self._stops = [left]
         for last in range(self._first + 1, len(self.text) + 1):
-            width = theme.width(self.text[self._first : last].rstrip("\n"), TEXT)
+            width = theme.width(self.text[self._first : last].rstrip("\n"), TEXT_SIZE)
             if width > room:
                 break
             self._stops.append(left + width)
@@ -228,8 +228,8 @@ class TextArea(TextEntry):
                 self._stops = self._stops[: shown.rindex(" ") + 2]
             self._rows.append((self._first, self._stops))
             self._first += max(1, len(self._stops) - 1)
-        high = TEXT_LINE * theme.scales[0]
-        return high, max(1, int((self.area[3] - 4) // high))
+        height = TEXT_LINE * theme.scales[0]
+        return height, max(1, int((self.area[3] - 4) // height))
 
 
 class EditedText:

@@ -20,7 +20,7 @@ from ninja_game.ui.lettering import LINE_HEIGHT, Lettering
 Area = tuple[float, float, float, float]  # x, y, width, height, logical px
 
 
-def inside(area: Area, x: float, y: float) -> bool:
+def contains_point(area: Area, x: float, y: float) -> bool:
     left, top, w, h = area
     return left <= x < left + w and top <= y < top + h
 
@@ -59,9 +59,9 @@ class Theme:
         ``width``, ``height``: the room for it, logical px; without a width up to the window's edge, without a height
         unlimited.
         """
-        room = self._room(x, align) if width is None else min(width, self._room(x, align))
-        scale = self.largest(text, size, room, bold=bold, height=height)
-        text = self._fit(text, room, size * scale, bold=bold)
+        most = self._room(x, align) if width is None else min(width, self._room(x, align))
+        scale = self.largest(text, size, most, bold=bold, height=height)
+        text = self._fit(text, most, size * scale, bold=bold)
         y -= (scale - 1) * size * LINE_HEIGHT / 2
         return self.lettering.draw(
             surface, text, x, y, size * scale, colour or self.palette.text, align=align, bold=bold

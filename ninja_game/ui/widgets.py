@@ -11,21 +11,21 @@ from typing import Generic, TypeVar
 
 import pygame
 
-from ninja_game.ui.theme import Area, Theme, inside
+from ninja_game.ui.theme import Area, Theme, contains_point
 
 PAD = 8
-TEXT = 11  # size of ordinary text, px
+TEXT_SIZE = 11  # size of ordinary text, px
 
 T = TypeVar("T")
 
 
-def following(options: Sequence[T], present: T, by: int = 1) -> T:
+def next_option(options: Sequence[T], present: T, step: int = 1) -> T:
     """The next option, after the last one the first.
 
     >>> following("abc", "c"), following("abc", "a", -1)
     ('a', 'c')
     """
-    return options[(options.index(present) + by) % len(options)]
+    return options[(options.index(present) + step) % len(options)]
 
 
 class Widget:
@@ -44,7 +44,7 @@ class Widget:
         return x + w / 2, y + h / 2
 
     def contains(self, x: float, y: float) -> bool:
-        return inside(self.area, x, y)
+        return contains_point(self.area, x, y)
 
     def confirm(self) -> bool:
         """The confirm key, or a click without another meaning."""
@@ -88,7 +88,7 @@ class Label(Widget):
 
     focusable = False
 
-    def __init__(self, area: Area, text: str, *, size: float = TEXT, faint: bool = False) -> None:
+    def __init__(self, area: Area, text: str, *, size: float = TEXT_SIZE, faint: bool = False) -> None:
         super().__init__(area)
         self.text = text
         self.size = size
@@ -110,7 +110,7 @@ class Button(Widget):
         action: Callable[[], object] | None,
         *,
         hint: str = "",
-        size: float = TEXT,
+        size: float = TEXT_SIZE,
         detail: str = "",
     ) -> None:
         super().__init__(area, hint=hint)
@@ -192,11 +192,11 @@ class Choice(Widget, Generic[T]):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
-        top = y + (h - TEXT) / 2
-        theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
+        top = y + (h - TEXT_SIZE) / 2
+        theme.text(surface, self.text, x + PAD, top, size=TEXT_SIZE, bold=focused, width=w * 0.5 - PAD)
         left, width = self._values()
         value = self.options[self.index][0]
-        theme.text(surface, value, left + width / 2, top, size=TEXT, align="centre", width=width - 40)
+        theme.text(surface, value, left + width / 2, top, size=TEXT_SIZE, align="centre", width=width - 40)
         for side, tip in ((left + 14, -5), (left + width - 14, 5)):
             points = [(side, y + h / 2 - 4), (side, y + h / 2 + 4), (side + tip, y + h / 2)]
             theme.canvas.polygon(surface, theme.palette.accent if focused else theme.palette.panel_edge, points)
@@ -249,9 +249,9 @@ class Slider(Widget):
         self.draw_base(surface, theme, focused=focused)
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area
-        top = y + (h - TEXT) / 2
-        theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
-        theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT, align="right", width=64 - PAD)
+        top = y + (h - TEXT_SIZE) / 2
+        theme.text(surface, self.text, x + PAD, top, size=TEXT_SIZE, bold=focused, width=w * 0.5 - PAD)
+        theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT_SIZE, align="right", width=64 - PAD)
         left, width = self._track()
         knob = left + width * (self.get() - self.low) / (self.high - self.low)
         canvas.fill_rect(surface, palette.panel_edge, left, y + h / 2 - 1.5, width, 3, 1.5)

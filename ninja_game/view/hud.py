@@ -201,8 +201,8 @@ class Hud:
         for medal, ticks in pars:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
         x, ink = _BAR_LEFT + _BAR_LENGTH, palette.on_tile
-        words, room = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}", _RIGHT - x - 10
-        text = self.theme.text(surface, words, _RIGHT, 7.4, size=9, colour=ink, align="right", bold=True, width=room)
+        words, width = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}", _RIGHT - x - 10
+        text = self.theme.text(surface, words, _RIGHT, 7.4, size=9, colour=ink, align="right", bold=True, width=width)
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
     def label(self, surface: pygame.Surface, text: str, size: float = 10.0) -> pygame.Rect:
@@ -219,10 +219,10 @@ class Hud:
         gap = 14 if left and right else 0
         # The right text grows only into free room.
         half_width = min(_FOOT_WIDTH / 2, theme.lettering.width(left, size))
-        room = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - half_width - gap)
-        rect = theme.text(surface, right, 768, y, size=size, colour=colour, align="right", width=room)
-        room = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
-        return [rect, theme.text(surface, left, 24, y, size=size, colour=colour, width=room)]
+        width = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - half_width - gap)
+        rect = theme.text(surface, right, 768, y, size=size, colour=colour, align="right", width=width)
+        width = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
+        return [rect, theme.text(surface, left, 24, y, size=size, colour=colour, width=width)]
 
     def head(self, surface: pygame.Surface, left: str, right: str) -> list[pygame.Rect]:
         """A line in the border above the level, like ``foot`` below it."""
@@ -272,24 +272,24 @@ class Hud:
         """A name with an arrow to its thing: above the thing, or below it at the upper edge."""
         theme, palette = self.theme, self.theme.palette
         side = -1 if y > TAG_ROOM else 1
-        wide = theme.width(name, _POINTER_SIZE, bold=True) + 12
-        left = min(max(x - wide / 2, 26), WIDTH - 26 - wide)
+        width = theme.width(name, _POINTER_SIZE, bold=True) + 12
+        left = min(max(x - width / 2, 26), WIDTH - 26 - width)
         tip, base, top = y + side * 17, y + side * 23, tag_top(y)
-        box = theme.canvas.fill_rect(surface, palette.accent, left, top, wide, 16, 4)
+        box = theme.canvas.fill_rect(surface, palette.accent, left, top, width, 16, 4)
         theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
-        middle = left + wide / 2
+        middle = left + width / 2
         theme.text(surface, name, middle, top + 3, size=_POINTER_SIZE, colour=palette.panel, align="centre", bold=True)
         return box.inflate(theme.canvas.px(4), theme.canvas.px(18))
 
     def _tail(self, surface: pygame.Surface, box: Box, at: Point) -> pygame.Rect:
         """A pointer from a message's panel to its place."""
         x, y, w, h = box.area
-        near = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
+        root = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
         upright = not y < at[1] < y + h
         palette, canvas, rects = self.theme.palette, self.theme.canvas, []
-        for colour, wide in ((palette.panel_edge, _TAIL), (palette.panel, _TAIL - 2)):
-            dx, dy = (wide, 0) if upright else (0, wide)
-            ends = (near[0] - dx, near[1] - dy), (near[0] + dx, near[1] + dy)
+        for colour, half_width in ((palette.panel_edge, _TAIL), (palette.panel, _TAIL - 2)):
+            dx, dy = (half_width, 0) if upright else (0, half_width)
+            ends = (root[0] - dx, root[1] - dy), (root[0] + dx, root[1] + dy)
             rects.append(canvas.polygon(surface, colour, [*ends, at]))
         return rects[0].union(canvas.circle(surface, palette.accent, at, 3)).inflate(2, 2)
 

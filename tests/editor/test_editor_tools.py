@@ -729,9 +729,9 @@ def test_a_fill_shows_what_it_would_fill_and_a_frame_how_large_it_is(tools: Edit
     tools.move(36, 36)
     tools.press()
     tools.move(100, 60)
-    drawn = tools.framed
+    drawn = tools.frame_size
     tools.release()
-    assert (drawn, tools.framed) == ((4, 2), None)
+    assert (drawn, tools.frame_size) == ((4, 2), None)
     tools.tool, tools.tile = "fill", 6
     tools.move(36, 36)
     assert tools.preview == dict.fromkeys([(column, row) for column in (1, 2, 3, 4) for row in (1, 2)], 6)

@@ -6,7 +6,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import ANY, MAX_LETTERS, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, NO_CELL, parse_messages
 
 PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
 
@@ -61,7 +61,7 @@ def test_a_moment_may_be_about_one_switch_or_gold_by_its_cell() -> None:
     says = "lock 12,5: a | lock: b | gold 3,4 for 9 s: c | switch 1,23: d | trap 31,1: e"
     read = parse_messages(says)
     assert [(line.when, line.cell, line.place) for line in read] == [
-        ("lock", (12, 5), None), ("lock", ANY, None), ("gold", (3, 4), None), ("switch", (1, 23), None),
+        ("lock", (12, 5), None), ("lock", NO_CELL, None), ("gold", (3, 4), None), ("switch", (1, 23), None),
         ("trap", (31, 1), None),
     ]  # fmt: skip
     one, any_of_them = read[:2]

@@ -11,7 +11,7 @@ from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.generator.generate import plan_of
 from ninja_game.generator.layouts import LAYOUTS, PLACE_NAMES
-from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, object_places, path, poly
+from ninja_game.generator.scene import RockBoard, Scene, box, disc, flood, object_places, path, polygon
 from ninja_game.generator.shaping import shaped
 from ninja_game.levels.lint import level_warnings
 from ninja_game.runs.run import run_level
@@ -63,14 +63,14 @@ def test_gold_lies_in_groups_and_no_piece_is_on_another(plan: str) -> None:
     scene = composed(plan, 10)
     gold = [record.values[:2] for record in scene.gold]
     assert min(dist(a, b) for number, a in enumerate(gold) for b in gold[:number]) >= 11.5
-    assert all(min(dist(piece, bait) for bait in scene.baits) < 100 for piece in gold)
-    assert len(scene.baits) >= 3
+    assert all(min(dist(piece, bait) for bait in scene.gold_middles) < 100 for piece in gold)
+    assert len(scene.gold_middles) >= 3
 
 
 @pytest.mark.parametrize("plan", PLANS)
 def test_most_hazards_guard_something(plan: str) -> None:
     scene = composed(plan, 10)
-    wanted = [*scene.baits, *(place for record in scene.key[1:] for place in object_places(record))]
+    wanted = [*scene.gold_middles, *(place for record in scene.key[1:] for place in object_places(record))]
     near = [
         min(dist(record.values[:2], point) for point in wanted) < 120 for group in scene.hazards for record in group
     ]
@@ -99,9 +99,11 @@ def test_a_plan_has_a_vault_with_one_way_in(plan: str, flip: bool) -> None:
         LAYOUTS[plan](board, Random(seed))
         if flip:
             board.flip()
-        bare = Scene(board, shaped(board.ink, even=board.even), board.heart[0])
-        inner = flood(board.heart[0], bare.empty - set(board.gate))
-        closed += len(inner) <= 70 and len(bare.steps) > 150 and board.heart[len(board.heart) // 2] in inner
+        bare = Scene(board, shaped(board.ink, even=board.even), board.vault_floor[0])
+        inner = flood(board.vault_floor[0], bare.empty - set(board.gate))
+        closed += (
+            len(inner) <= 70 and len(bare.reachable) > 150 and board.vault_floor[len(board.vault_floor) // 2] in inner
+        )
     assert closed >= 3
 
 
@@ -112,7 +114,7 @@ def test_mines_lie_on_the_rock(plan: str) -> None:
     places = [record.values[:2] for record in scene.objects if record.kind == MINE]
     on_rock = [place for place in places if all(dist(place, ring) > 2 for ring in scene.rings)]
     assert on_rock
-    assert not [place for place in on_rock if min(dist(place, face.off(6.0)) for face in faces) >= 28]
+    assert not [place for place in on_rock if min(dist(place, face.out_by(6.0)) for face in faces) >= 28]
 
 
 def test_every_plan_has_names() -> None:
@@ -122,7 +124,7 @@ def test_every_plan_has_names() -> None:
 def test_what_is_painted_alike_on_both_sides_has_mirrored_tiles() -> None:
     turned = str.maketrans("aswqdfreDFREghytGHYTjkiuJKIU][", "saqwfderFDERhgtyHGTYkjuiKJUI[]")
     board = RockBoard()
-    board.air(disc(9, 9, 6.3, 5.7), path(2.2, (5, 6), (14.3, 20.1)), poly((12, 20), (16.5, 3.3), (21, 20)))
+    board.dig(disc(9, 9, 6.3, 5.7), path(2.2, (5, 6), (14.3, 20.1)), polygon((12, 20), (16.5, 3.3), (21, 20)))
     board.rock(disc(11, 8.5, 2.3, 1.6), box(8, 15.4, 10.3, 18))
     tiles = shaped(board.ink, even=True)
     assert len(set(tiles.values())) > 12
@@ -133,5 +135,5 @@ def test_what_is_painted_alike_on_both_sides_has_mirrored_tiles() -> None:
 
 def test_straight_sides_on_the_grid_become_full_tiles() -> None:
     board = RockBoard()
-    board.air(box(4, 5, 20, 12))
+    board.dig(box(4, 5, 20, 12))
     assert set(shaped(board.ink, even=True).values()) == {"#"}

@@ -326,8 +326,8 @@ def test_the_ninja_reaches_a_disc_in_a_wall_as_far_as_its_own_radius_goes() -> N
     tiles = tuple(0 if cell % ROWS == ROWS - 1 else 1 for cell in range(TILES))
     ground = Ground(Level(tiles, PROPER))
     top = 23 * 24.0
-    assert ground.touchable(300.0, top - 15.5, 6.0)
-    assert not ground.touchable(300.0, top - 16.5, 6.0)
+    assert ground.can_touch(300.0, top - 15.5, 6.0)
+    assert not ground.can_touch(300.0, top - 16.5, 6.0)
 
 
 def test_what_only_a_fast_ninja_touches_is_named() -> None:

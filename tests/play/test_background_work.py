@@ -131,7 +131,7 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
         maker.wait(lambda: maker.app.notice)
         assert maker.app.notice == f"The level could not be examined: {why}"
         maker.press("f7")
-        maker.wait(lambda: not session.certifier.busy)
+        maker.wait(lambda: not session.certifier.is_busy)
         assert session.certifier.text == why
         session.close()
     finally:
@@ -190,7 +190,7 @@ def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monke
         impatient.setattr(NewestJob, "finish", lambda *_: pytest.fail("it waits"))
         certifier.start(old)
         certifier.stop()
-        assert (certifier.busy, certifier.text) == (False, "Stopped")
+        assert (certifier.is_busy, certifier.text) == (False, "Stopped")
         certifier.start(new)
     ready.set()
     certifier.solver.job.finish(LONGEST)
@@ -223,4 +223,4 @@ def test_a_newer_job_is_done_after_one_that_fails() -> None:
     jobs: NewestJob[int, int] = NewestJob(work)
     jobs.ask(1)
     jobs.finish(LONGEST)
-    assert (jobs.result, jobs.problem, jobs.idle, done) == (3, "", True, [3])
+    assert (jobs.result, jobs.problem, jobs.is_idle, done) == (3, "", True, [3])

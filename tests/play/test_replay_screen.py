@@ -260,7 +260,7 @@ def test_no_turn_of_the_costliest_run_is_longer_than_others(
         screen = ReplayScreen(app, [run, recording("a", run.level, bytes(9)), recording("b", run.level, bytes(9))])
         app.push(screen)
         frames(app, 2)
-        assert (screen.tick, screen.settled) == (0, False), "the first picture is there while the end is looked for"
+        assert (screen.tick, screen.is_settled) == (0, False), "the first picture is there while the end is looked for"
         screen.still_ms, screen.speed = 0, speed
         frames(app, 5, 300)
         played = screen.tick

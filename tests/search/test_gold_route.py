@@ -32,7 +32,7 @@ from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import Route
 from ninja_game.search.searching import Search
 from ninja_game.search.solve import solve
-from ninja_game.search.task import COOLING, FIND, OTHER_ROUTES, Progress, Task, obstacle
+from ninja_game.search.task import COOLING, FIRST_RUN_SEARCHES, OTHER_ROUTES, Progress, Task, obstacle
 from tests.support.recorded import hold_against
 
 SEARCHES = Path(__file__).parent.parent / "golden" / "searches.txt"
@@ -321,7 +321,7 @@ def lines_of_searches(first: Replay) -> Iterator[str]:
 
     start = open_start(LINES, box=False)
     search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
-    for number, resolution in enumerate((*(one for one, _ in FIND), *OTHER_ROUTES)):
+    for number, resolution in enumerate((*(one for one, _ in FIRST_RUN_SEARCHES), *OTHER_ROUTES)):
         search.begin(resolution, seed=1, bound=0, backed_up=number > 0)
         search.run(60_000)
         yield f"search {number}: {state(search)}"

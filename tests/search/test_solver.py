@@ -30,7 +30,7 @@ from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import open_start
 from ninja_game.search.searching import Search
 from ninja_game.search.solve import solve
-from ninja_game.search.task import FIND, Progress, Task, find_order
+from ninja_game.search.task import FIRST_RUN_SEARCHES, Progress, Task, first_run_searches
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
 from tests.support.reference import levels, require_reference
 
@@ -126,8 +126,8 @@ def test_the_memory_of_a_solver_is_free_when_it_has_ended(jobs: int) -> None:
 
 def test_every_job_makes_all_searches_for_a_first_run() -> None:
     for job in range(4):
-        first = islice(find_order(job), len(FIND))
-        assert {(resolution, ticks) for resolution, ticks, _ in first} == set(FIND)
+        first = islice(first_run_searches(job), len(FIRST_RUN_SEARCHES))
+        assert {(resolution, ticks) for resolution, ticks, _ in first} == set(FIRST_RUN_SEARCHES)
 
 
 def test_a_rocket_is_led_where_it_must_be() -> None:
@@ -136,7 +136,7 @@ def test_a_rocket_is_led_where_it_must_be() -> None:
     level = parse_level_string(next(row.data for row in levels() if row.label == "80-3"))
     start = open_start(level, box=False)
     search = Search(start, Heuristics(start.levels, start.worlds), nodes=700_000)
-    resolution, ticks = FIND[1]
+    resolution, ticks = FIRST_RUN_SEARCHES[1]
     search.begin(resolution, seed=1, bound=0)
     while search.ticks < ticks and not search.best():
         search.run(1_000_000)

@@ -38,7 +38,7 @@ FINENESS = SpanSettings(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0
 def searches(inputs: bytes = STANDING, *, gold: int = 0, level: Level = LEVEL) -> SpanSearches:
     start = open_start(level, box=False)
     made = SpanSearches(start, Heuristics(start.levels, start.worlds), gold=gold)
-    made.know(verified_run(level, inputs).inputs)
+    made.follow(verified_run(level, inputs).inputs)
     return made
 
 

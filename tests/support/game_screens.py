@@ -465,11 +465,11 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     driver.press("escape")
     driver.mouse_up()
     packer = screen.packer
-    packer.path, packer.busy, packer._step = folder, True, ("Certifying, 3 of 8 levels done", 0.375, 0.0)
-    with patch.object(type(packer._job), "idle", False):
+    packer.path, packer.is_busy, packer._step = folder, True, ("Certifying, 3 of 8 levels done", 0.375, 0.0)
+    with patch.object(type(packer._job), "is_idle", False):
         driver.frames(2)
         yield "packs-making-ready"
-    packer.busy, packer.text = False, ""
+    packer.is_busy, packer.text = False, ""
     driver.frames(2)
     driver.mouse(*screen.shelves.row_area(1)[:2], click=False)
     driver.press("right", "return")

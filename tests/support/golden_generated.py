@@ -42,7 +42,7 @@ def plan_digest(plan: str) -> str:
     for seed in range(8):
         board = RockBoard()
         LAYOUTS[plan](board, Random(seed))
-        digest.update(f"{board.ink.tobytes()!r} {board.heart} {board.gate} {board.spots}".encode())
+        digest.update(f"{board.ink.tobytes()!r} {board.vault_floor} {board.gate} {board.danger_places}".encode())
     return digest.hexdigest()
 
 

@@ -55,7 +55,7 @@ def busy(ticks: int, make: Any) -> Callable[[App], object]:
 
 def settle(app: App, screen: ReplayScreen) -> None:
     """Let turns pass until the end of the run is known and the moment sought is reached."""
-    while not screen.settled:
+    while not screen.is_settled:
         frames(app, 1, 0)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.board.categories import FASTEST, MAX_CATEGORIES, RUN_NUMBERS, USUAL, Category, read_rules
+from ninja_game.board.categories import DEFAULT_CATEGORIES, FASTEST, MAX_CATEGORIES, RUN_NUMBERS, Category, read_rules
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import ASSISTED, PLAYED
@@ -79,7 +79,7 @@ def test_the_categories_of_the_template_rank_as_they_say(runs: Path, levels: Pat
     (fastest, *_) = gold_rate.values(ranking.judged.runs)
     assert fastest
     assert gold_rate.text(fastest[0]) == f"{1 / WALK_END:g}"
-    assert not Category("Spent", ("-gold + ticks",)).rising
+    assert not Category("Spent", ("-gold + ticks",)).greatest_first
 
 
 def test_a_run_is_in_a_category_only_where_its_formula_holds(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_rules_put_unknown_runs_on_the_assisted_ladder(runs: Path, levels: Path,
     put(runs, "demo.txt", record(bytes([4]) + WALKING))
     put(runs, "ann.txt", replay(bytes(9) + WALKING + b"\2", author="Ann", made=Provenance(played=True)))
     rules, site = filed(tmp_path, 'unknown = "assisted"\n'), tmp_path / "site"
-    assert read_rules(rules) == (USUAL, "", ASSISTED)
+    assert read_rules(rules) == (DEFAULT_CATEGORIES, "", ASSISTED)
     words = "--json", str(tmp_path / "board.json"), "--site", str(site)
     page = site / "board" / "levels" / f"{DIGEST[:16]}.html"
 
@@ -212,7 +212,7 @@ def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path
     put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
     shown = published_levels(levels)
     days = {"ann.txt": "2026-01-02T12:00:00Z", "bea.txt": "2026-01-01T12:00:00Z", "cid.txt": "2025-12-20T12:00:00Z"}
-    ranking = Ranking(judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]]), shown, USUAL)
+    ranking = Ranking(judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]]), shown, DEFAULT_CATEGORIES)
     assert ranking.level_of_the_week == (DIGEST, 2, 2)
     assert [(each.run.player, [*each.gains.values()]) for each in ranking.records] == [
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]), ("Cid", [None, None]),

@@ -185,11 +185,11 @@ def suggestion(unknown: str, known: Iterable[str]) -> str:
     known = list(known)
     if unknown.startswith(("#", "//")):
         return "comments begin with ;"
-    near = [word for word in _SYNONYMS.get(unknown.lower(), ()) if word in known]
-    near = near or [word for word in known if unknown and (unknown in word.split() or unknown.startswith(word))]
-    near = near or difflib.get_close_matches(unknown, known, 3, 0.6)
-    if near:
-        return f"did you mean {' or '.join(near)}?"
+    similar = [word for word in _SYNONYMS.get(unknown.lower(), ()) if word in known]
+    similar = similar or [word for word in known if unknown and (unknown in word.split() or unknown.startswith(word))]
+    similar = similar or difflib.get_close_matches(unknown, known, 3, 0.6)
+    if similar:
+        return f"did you mean {' or '.join(similar)}?"
     return f"known are {', '.join(known)}"
 
 

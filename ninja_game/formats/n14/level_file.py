@@ -86,9 +86,9 @@ def _parts(text: str) -> Iterator[tuple[int, str]]:
     line = 1 + free.count("\n")
     pieces = (_ENCODED_SEPARATOR.split(data.partition("&")[0])) if marker else _SEPARATOR.split(data)
     # Copying may have lost the '$' of a replay text.
-    lost = len(pieces) == 1 and pieces[0].lstrip().startswith("#")
+    lacks_dollar = len(pieces) == 1 and pieces[0].lstrip().startswith("#")
     for index, piece in enumerate(pieces):
-        if index or lost:
+        if index or lacks_dollar:
             yield line, _url_decoded(piece) if marker else piece
         line += piece.count("\n")
 
@@ -138,13 +138,13 @@ def _find_demo(fields: list[str]) -> tuple[int, str]:
     for place in (4, 3, 2):
         if place >= len(fields):
             continue
-        closed = place < len(fields) - 1
-        text = "".join(fields[place].split()) if closed else _wrapped_demo(fields[place])
-        short = _SHORT_DEMO.fullmatch(text) is not None
-        bare = not fields[0].strip() and not fields[1].strip() and "|" not in "".join(fields[3:])
+        is_closed = place < len(fields) - 1
+        text = "".join(fields[place].split()) if is_closed else _wrapped_demo(fields[place])
+        is_short = _SHORT_DEMO.fullmatch(text) is not None
+        is_bare = not fields[0].strip() and not fields[1].strip() and "|" not in "".join(fields[3:])
         # Free text such as AWESOME could look like a legacy demo.
-        whole = is_demo(text) and (closed or not text.startswith("A"))
-        if whole if place == 4 else short and (place == 3 or bare):
+        is_demo_text = is_demo(text) and (is_closed or not text.startswith("A"))
+        if is_demo_text if place == 4 else is_short and (place == 3 or is_bare):
             return place, text
     return 0, ""
 

@@ -66,8 +66,8 @@ class PackFiles:
         elif path.is_dir():
             # A symbolic link in a foreign pack may point to a private file.
             below = [] if (path / CERTIFICATES).is_symlink() else files_in(path / CERTIFICATES, follow_links=False)
-            inside = [*files_in(path, follow_links=False), *(f"{CERTIFICATES}/{name}" for name in below)]
-            self.names = tuple(sorted(inside))
+            names = [*files_in(path, follow_links=False), *(f"{CERTIFICATES}/{name}" for name in below)]
+            self.names = tuple(sorted(names))
         else:
             self._open_zip(read_bytes(path))
             self.names = tuple(sorted(self._entries))
@@ -81,17 +81,17 @@ class PackFiles:
         entries = [entry for entry in self._zip.infolist() if not entry.filename.endswith("/")]
         # Many zips contain the folder instead of its files.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
-        top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
-        if others := [name for name in sorted(set(indexes)) if name != top + INDEX]:
-            self.problems.append(f"{self.place(others[0])}: a second index; {top + INDEX} is the one that is read")
+        root = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
+        if others := [name for name in sorted(set(indexes)) if name != root + INDEX]:
+            self.problems.append(f"{self.place(others[0])}: a second index; {root + INDEX} is the one that is read")
         keys = Counter(name_key(entry.filename) for entry in entries)
-        twice = sorted({entry.filename for entry in entries if keys[name_key(entry.filename)] > 1})
-        self.problems += [f"{self.place(name)}: more than one file has this name on some system" for name in twice]
+        duplicates = sorted({entry.filename for entry in entries if keys[name_key(entry.filename)] > 1})
+        self.problems += [f"{self.place(name)}: more than one file has this name on some system" for name in duplicates]
         for entry in entries:
-            name = entry.filename.removeprefix(top)
+            name = entry.filename.removeprefix(root)
             parts = PurePosixPath(name).parts
-            plain = "\\" not in name and ".." not in parts and not name.startswith("/")
-            if entry.filename.startswith(top) and plain and (len(parts) == 1 or parts[:-1] == (CERTIFICATES,)):
+            is_plain = "\\" not in name and ".." not in parts and not name.startswith("/")
+            if entry.filename.startswith(root) and is_plain and (len(parts) == 1 or parts[:-1] == (CERTIFICATES,)):
                 self._entries[name] = entry
 
     @property

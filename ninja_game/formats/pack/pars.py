@@ -19,17 +19,17 @@ Source: people's best runs are 5 % longer than tool-assisted ones (median of 218
 
 MEDALS = (*MARGINS, "bronze")  # the best first; bronze is for every pass
 
-CARE = 0.25
+MARGIN_GROWTH = 0.25
 """Growth of a margin per point of difficulty, as a share of it: careful play takes longer. Chosen, not tuned."""
 
 DIFFICULTY_GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
 """Words for difficulties below a number, for players."""
 
-_STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
+_PAR_STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
 
-DIGITS = 16  # digits of a digest in the table
+DIGEST_DIGITS = 16  # digits of a digest in the table
 
-_HEAD = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
+_HEADER = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ class Pars:
         >>> [Pars("", "", 400, difficulty=points).par("gold") for points in (None, 0.0, 4.0)]
         [492, 492, 580]
         """
-        margin = MARGINS[medal] * (1 + CARE * (self.difficulty or 0.0))
-        return _STEP * ceil(round(self.exit * (1 + margin) / _STEP, 6))
+        margin = MARGINS[medal] * (1 + MARGIN_GROWTH * (self.difficulty or 0.0))
+        return _PAR_STEP * ceil(round(self.exit * (1 + margin) / _PAR_STEP, 6))
 
     def medal(self, tick: int) -> str:
         """The best medal for an exit contact in ``tick``."""
@@ -84,13 +84,13 @@ def parse_pars(text: str, *, file: str = "") -> dict[str, Pars]:
         raise PackError(f"no TOML: {error}", file) from None
     pars = {}
     for name, table in tables.items():
-        if not isinstance(table, dict) or not _is_whole(table):
+        if not isinstance(table, dict) or not _is_complete(table):
             raise PackError(f"the pars of {name!r}", file, hint="`ninja-game levels pars` makes the table again")
         pars[name] = Pars(**table)
     return pars
 
 
-def _is_whole(table: Mapping[str, Any]) -> bool:
+def _is_complete(table: Mapping[str, Any]) -> bool:
     kinds = {"level": str, "run": str, "exit": int, "gold": int, "difficulty": float}
     typed = all(type(value) is kinds.get(key) for key, value in table.items())
     numbers = [value for value in table.values() if not isinstance(value, str)]
@@ -101,12 +101,12 @@ def write_pars(pars: Mapping[str, Pars]) -> str:
     """Write the table as TOML, one line per level file, in their order."""
     lines = []
     for name in sorted(pars):
-        par = pars[name]
-        values = [f'level = "{par.level}"', f'run = "{par.run}"', f"exit = {par.exit}"]
-        values += [f"gold = {par.gold}"] if par.gold is not None else []
-        values += [f"difficulty = {par.difficulty:.2f}"] if par.difficulty is not None else []
+        entry = pars[name]
+        values = [f'level = "{entry.level}"', f'run = "{entry.run}"', f"exit = {entry.exit}"]
+        values += [f"gold = {entry.gold}"] if entry.gold is not None else []
+        values += [f"difficulty = {entry.difficulty:.2f}"] if entry.difficulty is not None else []
         lines.append(f"{_key(name)} = {{ {', '.join(values)} }}\n")
-    return _HEAD + "".join(lines)
+    return _HEADER + "".join(lines)
 
 
 def _key(name: str) -> str:

@@ -145,9 +145,9 @@ def _base(number: int, mirrored: bool) -> _Base:
         places = np.frombuffer(record.places, np.float64).reshape(-1, 2)
         speeds = np.abs(np.diff(places, axis=0, prepend=places[:1])).sum(1)
         stands = np.frombuffer(record.states, np.uint8) <= SKIDDING
-        away = np.abs(places - places[0]).sum(1) >= _AWAY
+        is_apart = np.abs(places - places[0]).sum(1) >= _AWAY
         order = np.argsort(speeds, kind="stable")
-        return _Base(packed.level, packed.inputs[: len(places)], places, order[(stands & away)[order]] + 1)
+        return _Base(packed.level, packed.inputs[: len(places)], places, order[(stands & is_apart)[order]] + 1)
     base = _base(number, mirrored=False)
     (mirror,) = SYMMETRIES["left-right"]
     columns = np.reshape(base.level.tiles, (COLUMNS, ROWS))[::-1]

@@ -66,7 +66,7 @@ def level_source(origin: Origin) -> LevelSource:
             return parts[0]
         if any(part.largest is not None for part in parts):
             raise ArgumentError("'bench:…' is a source of its own; expected it alone, not in a list with others")
-        return LevelSource([n for p in parts for n in p.names], [level for p in parts for level in p.levels])
+        return LevelSource([name for p in parts for name in p.names], [level for p in parts for level in p.levels])
     return _level_source_by_text(origin)
 
 
@@ -132,8 +132,10 @@ def _packed(difficulty: str) -> LevelSource:
 
     if difficulty and difficulty not in map(str, range(1, 11)):
         raise ArgumentError(f"found 'packed:{difficulty:.60}'; expected 'packed', or 'packed:1' to 'packed:10'")
-    made = packed.read_packed_levels(int(difficulty) if difficulty else None)
-    return LevelSource([f"generated-{level.wanted}-{level.seed}" for level in made], [level.level for level in made])
+    levels = packed.read_packed_levels(int(difficulty) if difficulty else None)
+    return LevelSource(
+        [f"generated-{level.wanted}-{level.seed}" for level in levels], [level.level for level in levels]
+    )
 
 
 def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:
@@ -143,8 +145,8 @@ def generated_levels(seeds: Iterable[int], difficulty: int) -> LevelSource:
     """
     from ninja_game.generator.generate import generate
 
-    made = [(seed, generate(seed, difficulty)) for seed in seeds]
-    levels = [(f"generated-{difficulty}-{seed}", level.named.level) for seed, level in made if level]
+    generated = [(seed, generate(seed, difficulty)) for seed in seeds]
+    levels = [(f"generated-{difficulty}-{seed}", level.named.level) for seed, level in generated if level]
     if not levels:
         raise ArgumentError(f"none of these seeds gives a level of difficulty {difficulty}; try others")
     return LevelSource([name for name, _ in levels], [level for _, level in levels])

@@ -22,7 +22,7 @@ from ninja_game.files.bundled import data_folder
 from ninja_game.files.reading import read_text
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import PARS
-from ninja_game.formats.pack.pars import DIGITS, parse_pars
+from ninja_game.formats.pack.pars import DIGEST_DIGITS, parse_pars
 from ninja_game.sim.level import Level
 
 ChosenLevels: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]  # levels of a source, by name or number
@@ -198,7 +198,7 @@ def measured_difficulties(source: LevelSource) -> list[float]:
     """The difficulties of levels in the table of the game's own levels. Raises ArgumentError for other levels."""
     pars = parse_pars(read_text(data_folder("levels") / PARS)).values()
     known = {par.level: par.difficulty for par in pars if par.difficulty is not None}
-    digests = [level_digest(level)[:DIGITS] for level in source.levels]
+    digests = [level_digest(level)[:DIGEST_DIGITS] for level in source.levels]
     unknown = [name for name, digest in zip(source.names, digests, strict=True) if digest not in known]
     if unknown:
         hint = "give `difficulties`, or take levels of the game"

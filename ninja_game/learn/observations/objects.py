@@ -106,15 +106,15 @@ DX = len(OBSERVED_KINDS)
 _MAX_OBJECTS = 64
 
 
-class Numbered(NamedTuple):
+class ObservedObject(NamedTuple):
     """An object, by its slot, and the column or plane of its kind."""
 
     slot: int
     number: int
 
 
-def _numbered(objects: Iterable[InitialObject], numbers: Mapping[int, int]) -> list[Numbered]:
-    return [Numbered(o.slot, numbers[o.kind]) for o in objects]
+def _observed(objects: Iterable[InitialObject], numbers: Mapping[int, int]) -> list[ObservedObject]:
+    return [ObservedObject(o.slot, numbers[o.kind]) for o in objects]
 
 
 @dataclass(frozen=True)
@@ -154,13 +154,13 @@ class NearObjects(Part):
         """The count; factors and limits; the objects of all levels, their columns; memory for the nearest."""
         low, high, divisors = self._range()
         columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
-        room = [[0] * (context.count * self.count)] * 2
+        memory = [[0] * (context.count * self.count)] * 2
         return (
             observe_objects,
             self.count,
             context.ranges(low, high, divisors),
-            *context.rows(lambda number: _numbered(context.objects(number, *columns), columns), Numbered),
-            *(context.table(values, np.float64) for values in room),
+            *context.rows(lambda number: _observed(context.objects(number, *columns), columns), ObservedObject),
+            *(context.table(values, np.float64) for values in memory),
         )
 
 
@@ -247,7 +247,7 @@ class LevelPlanes(Part):
         return (
             observe_planes,
             context.values(shades, values),
-            *context.rows(lambda number: _numbered(context.objects(number, *planes), planes), Numbered),
+            *context.rows(lambda number: _observed(context.objects(number, *planes), planes), ObservedObject),
             MAX_BYTE * factor,
             CLOSED_EXIT * factor,
         )

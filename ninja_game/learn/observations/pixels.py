@@ -244,11 +244,11 @@ class Pixels(Part):
         layers = np.zeros((1, 1) if self.view else (context.count, self.length), self.box.dtype)
         right, bottom = self.width - 1, self.height - 1
         frame = Frame(self.width, 0.0, 0.0, pixel_x, pixel_y, 0, right, 0, bottom, int(not self.normalised))
-        wide, high = across + 2 * margins[1][0], down + 2 * margins[0][0]
+        width, height = across + 2 * margins[1][0], down + 2 * margins[0][0]
         return (
             observe_pixels,
             context.values(picture, self.box.dtype),
-            PixelView(frame, wide, high, int(self.view is not None), NINJA_SHADE * factor),
+            PixelView(frame, width, height, int(self.view is not None), NINJA_SHADE * factor),
             Layers(context.changed, layers, context.values(later, np.int16), *context.rows(movers, int)),
             *context.rows(lambda number: list(map(drawn, context.objects(number, *SHADES))), DrawnObject),
         )

@@ -47,17 +47,17 @@ def solidity(
 ) -> NDArray[np.uint8]:
     """Points of a level, (down, across), spread evenly over the world, or ``spacing`` px apart; 1: solid."""
     points = np.zeros((down, across), np.uint8)
-    wide, high = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
-    context.worlds.kernel(mark_solid)(context.worlds.maps, number, wide, high, points)
+    cell_width, cell_height = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
+    context.worlds.kernel(mark_solid)(context.worlds.maps, number, cell_width, cell_height, points)
     return points
 
 
 @kernel
-def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) -> None:
-    """Mark the points that are solid, ``wide`` and ``high`` px apart."""
+def mark_solid(maps: Any, number: int, width: float, height: float, points: Any) -> None:
+    """Mark the points that are solid, ``width`` and ``height`` px apart."""
     for row in range(len(points)):
         for column in range(len(points[row])):
-            if solid_at(maps[number], (column + 0.5) * wide, (row + 0.5) * high):
+            if solid_at(maps[number], (column + 0.5) * width, (row + 0.5) * height):
                 points[row, column] = 1
 
 

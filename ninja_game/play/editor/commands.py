@@ -46,7 +46,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.theme import Area
-from ninja_game.ui.widgets import following
+from ninja_game.ui.widgets import next_option
 
 EDITOR_COMMANDS = CommandTable(bundled_commands("level-editor.txt"))
 """All commands with a key. Other keys choose tiles and objects."""
@@ -109,7 +109,7 @@ class EditorCommands(DocumentCommands):
             tools.finish()
             tools.tool = name
         elif name.startswith("snap_"):
-            tools.snap = following(list(SNAPS), tools.snap) if name == "snap_next" else name[5:]
+            tools.snap = next_option(list(SNAPS), tools.snap) if name == "snap_next" else name[5:]
         else:
             self._table()[name]()
 
@@ -123,14 +123,14 @@ class EditorCommands(DocumentCommands):
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
             "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
-            "takes": lambda: tools.take(following(TAKES, tools.takes)),
+            "takes": lambda: tools.take(next_option(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
-            "next_tool": lambda: self.run(following(TOOLS, tools.tool)),
+            "next_tool": lambda: self.run(next_option(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.draws_objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
             "turn": lambda: view.turn(CLOCKWISE),
-            "symmetry": lambda: self.mirror(following(list(SYMMETRIES), tools.symmetry)),
-            "grid": lambda: view.show_grid(following(GRIDS, view.grid)),
+            "symmetry": lambda: self.mirror(next_option(list(SYMMETRIES), tools.symmetry)),
+            "grid": lambda: view.show_grid(next_option(GRIDS, view.grid)),
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
@@ -317,10 +317,10 @@ class EditorCommands(DocumentCommands):
         certifier = self.session.certifier
         self.session.tools.finish()
         level = self.session.draft.level
-        if certifier.compiling and not certifier.is_stale(level):
+        if certifier.is_compiling and not certifier.is_stale(level):
             self.app.notify("Still compiling: F7 stops the search that follows", here=True)
             return
-        if certifier.busy and not certifier.is_stale(level):
+        if certifier.is_busy and not certifier.is_stale(level):
             certifier.stop()
             self.app.notify(f"{'Stopped. ' if certifier.certification.run else ''}{certifier.text}", here=True)
             return

@@ -15,19 +15,19 @@ from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     ALL_GOLD,
-    ANY,
-    BAR,
+    FRAME_SIZE,
     KEYS,
     MAX_LETTERS,
     MAX_MESSAGE_LINES,
     MAX_MESSAGES,
+    NO_CELL,
     NUMBER_WORDS,
-    SIZE,
+    SEPARATOR,
     TARGETS,
     WORDS,
     LevelMessage,
     arrow_targets,
-    in_a_header,
+    header_form,
     parse_messages,
     unknown_words,
 )
@@ -50,7 +50,7 @@ from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextArea, TextEntry
-from ninja_game.ui.theme import Area, Palette, Theme, inside, mixed
+from ninja_game.ui.theme import Area, Palette, Theme, contains_point, mixed
 from ninja_game.ui.widgets import Button, Widget
 from ninja_game.view.hud import Hud, HudView, PlacedMessage, placed_message
 from ninja_game.view.places import Things
@@ -131,7 +131,7 @@ class MessageRow:
     def source(self) -> str:
         seconds = self.time.strip().replace(",", ".")
         shown_for = f" for {seconds} s" if seconds else ""
-        return f"{self.moment}{shown_for}: {in_a_header(self.text)}"
+        return f"{self.moment}{shown_for}: {header_form(self.text)}"
 
     @property
     def problem(self) -> tuple[int, str]:
@@ -143,8 +143,8 @@ class MessageRow:
             return TIME, _BAD_TIME
         if not self.text.strip():
             return _TEXT, "Type what is said, or remove the message"
-        if BAR in self.text:
-            return _TEXT, f"A message has no {BAR}"
+        if SEPARATOR in self.text:
+            return _TEXT, f"A message has no {SEPARATOR}"
         return _TEXT, self.unknown and f"{self.unknown} is not one of {_listed(WORDS)}"
 
     @property
@@ -165,9 +165,9 @@ def messages_of(says: str) -> list[MessageRow]:
 
 
 def _detail(message: LevelMessage) -> str:
-    if message.cell == ANY:
+    if message.cell == NO_CELL:
         return str(message.number or "")
-    return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != SIZE else "")
+    return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != FRAME_SIZE else "")
 
 
 def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[int, int]:
@@ -268,12 +268,12 @@ class MessagesScreen(MenuScreen):
         self._here, self._put, self._test = here, put, test
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
-        self._drag_begin: Cell = ANY
+        self._drag_begin: Cell = NO_CELL
         self._dragged_frame: Callable[[Cell], CellFrame] | None = None  #: the frame for the pointer's cell
 
     @property
     def source(self) -> str:
-        return f" {BAR} ".join(message.source for message in self.messages)
+        return f" {SEPARATOR} ".join(message.source for message in self.messages)
 
     def enter(self) -> None:
         super().enter()
@@ -368,7 +368,7 @@ class MessagesScreen(MenuScreen):
             self._drag_begin, self._dragged_frame = cell, None
             self._press(at, cell)
         elif self._dragged_frame and cell != self._drag_begin:
-            self._drag_begin = ANY
+            self._drag_begin = NO_CELL
             self._put_frame(self._dragged_frame(cell))
         self.redraw = True
 
@@ -376,7 +376,7 @@ class MessagesScreen(MenuScreen):
         """The point of the level, px, under one of the screen; None outside the picture."""
         x, y = self.theme.canvas.logical(pos)
         scale = WIDTH / _PICTURE[2]
-        return ((x - _PICTURE[0]) * scale, (y - _PICTURE[1]) * scale) if inside(_PICTURE, x, y) else None
+        return ((x - _PICTURE[0]) * scale, (y - _PICTURE[1]) * scale) if contains_point(_PICTURE, x, y) else None
 
     def _press(self, at: Point, cell: Cell) -> None:
         """A thing under the pointer comes first, then an edge of the selected frame, a number, the place itself."""
@@ -397,7 +397,7 @@ class MessagesScreen(MenuScreen):
             self._dragged_frame = partial(_moved, parsed.frame, cell)
         elif selected and selected.when == "at":
             if is_inside(cell_of(*at)):
-                self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else SIZE).frame)
+                self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else FRAME_SIZE).frame)
                 self._dragged_frame = partial(_between, cell)
         elif selected and not named and away >= near:
             self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
@@ -494,7 +494,7 @@ class MessagesScreen(MenuScreen):
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
-        if not self._answer_drawn and self._known.idle:
+        if not self._answer_drawn and self._known.is_idle:
             self._answer_drawn = self.redraw = True
 
     def draw_frame(self, surface: pygame.Surface) -> None:

@@ -22,7 +22,7 @@ from ninja_game.sim.states import TRAP
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.input.keys import key_label_of
-from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, inside, mixed
+from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, contains_point, mixed
 from ninja_game.ui.widgets import Widget
 from ninja_game.view.ninja.figure import FIGURE_REACH, STAND, paint_figure
 from ninja_game.view.sprites import static_sprites
@@ -236,7 +236,7 @@ class PaletteView(Widget):
         return f"{name[0].upper()}{name[1:]}"
 
     def _at(self, x: float, y: float) -> PaletteEntry | None:
-        return next((entry for entry, area in self.places() if inside(area, x, y)), None)
+        return next((entry for entry, area in self.places() if contains_point(area, x, y)), None)
 
     def contains(self, x: float, y: float) -> bool:
         """Whether there is an entry at a point; the mouse between two entries means nothing here."""
@@ -267,9 +267,9 @@ class PaletteView(Widget):
         canvas, palette = theme.canvas, theme.palette
         x, y, w, _ = self.area
         objects = self.tools.draws_objects
-        for text, top, high, lit in (("Tiles", y, 89, not objects), ("Objects: Shift+letter", y + 89, 126, objects)):
+        for text, top, height, lit in (("Tiles", y, 89, not objects), ("Objects: Shift+letter", y + 89, 126, objects)):
             if lit:
-                lit_area = x - 3, top - 2, w + 5, high
+                lit_area = x - 3, top - 2, w + 5, height
                 canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)
                 canvas.frame_rect(surface, palette.accent, *lit_area, 1, 3)
             theme.text(surface, text, x + 1, top + 2, size=10, bold=lit)

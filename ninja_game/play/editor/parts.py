@@ -210,8 +210,8 @@ def _row(buttons: Sequence[MenuRow], head: str = "", room: int = 0) -> Callable[
 
     def make(area: Area) -> Sequence[Widget]:
         x, y, w, h = area
-        wide = (w - room) / len(buttons)
-        places = [(x + room + wide * k, y, wide - 2, h) for k in range(len(buttons))]
+        width = (w - room) / len(buttons)
+        places = [(x + room + width * k, y, width - 2, h) for k in range(len(buttons))]
         row = [Button(at, *button[:2], hint=button[2], size=8) for at, button in zip(places, buttons, strict=True)]
         return [Label((x, y + 5, room, h), head, size=8.5), *row]
 
@@ -441,13 +441,13 @@ class Findings(EditorPart):
     def update(self, real_ms: int) -> None:
         if self._shown is not self.session.findings:
             self._shown, theme = self.session.findings, self.view.app.theme
-            room = self.area[2] - 32
+            width = self.area[2] - 32
             accepted = self.session.accepted
             texts = [
                 f"{odd.sentence}. Accepted: {accepted[odd.code]}" if odd.code in accepted else odd.advice
                 for odd in self._shown
             ]
-            self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, room, 9.5)]
+            self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, width, 9.5)]
             self.list.fill(self._lines)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -474,7 +474,7 @@ class FilePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         session, certifier = self.session, self.session.certifier
-        solver = certifier.text, certifier.busy, certifier.certification.share, certifier.certification.run is None
+        solver = certifier.text, certifier.is_busy, certifier.certification.share, certifier.certification.run is None
         return session.name, session.source.path, session.is_saved, solver, certifier.is_stale(session.draft.level)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -490,16 +490,16 @@ class FilePart(EditorPart):
         certifier = session.certifier
         stale, run = certifier.is_stale(session.draft.level), certifier.certification.run
         text = certifier.text or "Not certified yet: F7 looks for a way through it"
-        if stale and certifier.busy:
+        if stale and certifier.is_busy:
             text = "The level has changed: the search starts again once you pause, or now by F7"
         elif stale:
             text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
-        elif run and not certifier.busy:
+        elif run and not certifier.is_busy:
             text += f". {session.keeping}"
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
-        if certifier.busy and certifier.certification.progress:
+        if certifier.is_busy and certifier.certification.progress:
             canvas.fill_rect(surface, palette.panel_edge, x, y + h - 9, w, 5, 2)
             canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.certification.share), 5, 2)
 
@@ -540,14 +540,14 @@ class StatusLine(EditorPart):
         return self.view.hint or shown
 
     def render_key(self) -> tuple[object, ...]:
-        return self.session.tools.pointer, self.session.tools.framed, self._text(), self.view.camera.zoom
+        return self.session.tools.pointer, self.session.tools.frame_size, self._text(), self.view.camera.zoom
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         tools, colour, top = self.session.tools, theme.palette.on_tile, self.area[1] + 5
         (column, row), (x, y) = tools.cell, tools.pointer
         theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=colour)
-        place = "{} x {} cells".format(*tools.framed) if tools.framed else f"{x:.0f},{y:.0f} px"
+        place = "{} x {} cells".format(*tools.frame_size) if tools.frame_size else f"{x:.0f},{y:.0f} px"
         theme.text(surface, place, 58, top, size=9.5, colour=colour)
         theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
 
@@ -667,6 +667,6 @@ class ObjectList(EditorPart):
             theme.row(surface, (x, y, w, h), chosen=True, focused=False, radius=2)
         faint = theme.palette.faint
         theme.text(surface, str(number), x + 19, y + 3, size=8.5, colour=faint, align="right", width=19)
-        text, room = object_text(tools.draft.objects[number]), w - 24
-        size = max(7.0, min(9.0, 9 * room / theme.width(text, 9, bold=chosen)))
-        theme.text(surface, text, x + 22, y + 3 + (9 - size) / 2, size=size, bold=chosen, width=room)
+        text, width = object_text(tools.draft.objects[number]), w - 24
+        size = max(7.0, min(9.0, 9 * width / theme.width(text, 9, bold=chosen)))
+        theme.text(surface, text, x + 22, y + 3 + (9 - size) / 2, size=size, bold=chosen, width=width)

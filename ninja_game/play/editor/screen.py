@@ -22,7 +22,7 @@ from ninja_game.ui.canvas import HEIGHT
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.widgets import following
+from ninja_game.ui.widgets import next_option
 
 
 class EditorScreen(WorkspaceScreen):
@@ -97,7 +97,7 @@ class EditorScreen(WorkspaceScreen):
 
     def handle(self, event: InputEvent) -> None:
         """The mouse reports many places per picture: a drag goes to the last one."""
-        if event.raw.type == pygame.MOUSEMOTION and self.session.tools.dragging:
+        if event.raw.type == pygame.MOUSEMOTION and self.session.tools.is_dragging:
             self._dragged_to = event
             return
         self._drag_on()
@@ -161,7 +161,7 @@ class EditorScreen(WorkspaceScreen):
     def _words_on(self, name: str, by: int) -> str:
         spec = next(subject for subject in self.session.tools.subjects if name in properties(subject))
         words, now = list(PROPERTIES[spec.kind][name].words), word(spec, name)
-        return following(words, now if now in words else words[0], by)
+        return next_option(words, now if now in words else words[0], by)
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)

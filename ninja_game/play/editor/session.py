@@ -60,7 +60,7 @@ from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import is_inside
 from ninja_game.sim.kinds import DRONE, EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
-from ninja_game.ui.widgets import following
+from ninja_game.ui.widgets import next_option
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 LOOK_SPACING = 0.5
@@ -201,7 +201,7 @@ class EditorSession:
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
-        self.start = following(list(STARTS), self.start)
+        self.start = next_option(list(STARTS), self.start)
         self._start_asked = None
 
     def _follow_pointer(self) -> None:
@@ -240,7 +240,7 @@ class EditorSession:
         if known and known.level == self.draft.level:
             self.certifier.adopt(known)
         self._search_again()
-        if not self.certifier.busy:
+        if not self.certifier.is_busy:
             self.certify_file()
         self.autosave.poll(self.tools.history, self.source)
         if self.autosave.problem:
@@ -254,7 +254,7 @@ class EditorSession:
         before = self._asked
         news = before is None or level is not before[0] or obstacles is not before[1] or (says, inputs) != before[2:]
         due = news and monotonic() - self._asked_at >= CHECK_SPACING
-        if due and not self.tools.dragging:
+        if due and not self.tools.is_dragging:
             self._asked, self._asked_at = (level, obstacles, says, inputs), monotonic()
             self._checks.ask(self._asked)
         if not self.tools.history.in_stroke and self.draft.objects is not self._objects:
@@ -265,8 +265,8 @@ class EditorSession:
         certifier, level = self.certifier, self.draft.level
         if level is not self._resting[0]:
             self._resting = level, monotonic()
-        rests = not self.tools.history.in_stroke and (certifier.waits or monotonic() - self._resting[1] >= REST)
-        stale = rests and certifier.busy and certifier.is_stale(level)
+        rests = not self.tools.history.in_stroke and (certifier.is_waiting or monotonic() - self._resting[1] >= REST)
+        stale = rests and certifier.is_busy and certifier.is_stale(level)
         if stale and {NINJA, EXIT} <= {spec.kind for spec in level.objects}:
             certifier.start(level)
 
@@ -290,9 +290,9 @@ class EditorSession:
     def certify_text(self) -> str:
         """What F7 does now."""
         certifier = self.certifier
-        stops = certifier.busy and not certifier.is_stale(self.draft.level)
+        stops = certifier.is_busy and not certifier.is_stale(self.draft.level)
         stop = f"Stop {certifier.waited}"
-        return "Certify" if not stops else certifier.waited if certifier.compiling else stop[:9].strip()
+        return "Certify" if not stops else certifier.waited if certifier.is_compiling else stop[:9].strip()
 
     @property
     def test_map(self) -> TestMap | None:
@@ -332,7 +332,7 @@ class EditorSession:
     def certify_file(self) -> None:
         """Write the known runs beside the level's file if that holds their level: packs then need no other."""
         search, path = self.certifier.certification, self.source.path
-        known = search.run, search.full, path
+        known = search.run, search.gold_run, path
         if path and self.certifying_inputs and known != self._certified and self.is_saved:
             self._certified = known
             self._keep(path, search)
@@ -347,7 +347,7 @@ class EditorSession:
             if named is None and search.run:
                 self.app.notify(f"{which}no certificate, as no file has the level any more. Open it, and press F7")
                 return
-            for run in filter(None, (search.run, search.full)):
+            for run in filter(None, (search.run, search.gold_run)):
                 if named and self._keeps_runs(Path(named.file)):
                     update_certificates(named, run)
         except (NinjaGameError, OSError) as error:
@@ -372,7 +372,7 @@ class EditorSession:
         """The level is closed: a search of the level in its file continues in the background, any other one ends."""
         path, level = self.source.path, self.source.draft.level
         keep_history(self.app.player.folder, self.source.digest, self.tools.history)
-        if path and self._keeps_runs(path) and self.certifier.busy and not self.certifier.is_stale(level):
+        if path and self._keeps_runs(path) and self.certifier.is_busy and not self.certifier.is_stale(level):
             self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
         else:
             self.certifier.leave(None)

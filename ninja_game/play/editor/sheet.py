@@ -27,7 +27,7 @@ from ninja_game.sim.rules import CELL, STRIDE
 from ninja_game.ui.canvas import WIDTH, Canvas, Colour, Lens
 from ninja_game.ui.theme import Palette
 from ninja_game.view.sprites.drawing import DrawTarget, is_near, shared_book
-from ninja_game.view.sprites.tile_sheet import TileSheet, around, scrolled
+from ninja_game.view.sprites.tile_sheet import TileSheet, rects_around, scrolled
 
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
 """Order of drawing: higher numbers lie in front."""
@@ -71,7 +71,7 @@ class LevelSheet:
         if self.draft and canvas.scale == self.flat.scale:
             self._tiles.scroll(canvas, grid_tiles(self.draft.level))
             kept = scrolled(self.surface, canvas.origin[0] - left, canvas.origin[1] - top)
-            self._dirty += around(kept.move(self._seen.topleft), self._seen)
+            self._dirty += rects_around(kept.move(self._seen.topleft), self._seen)
             return
         self.surface, self._tiles = pygame.Surface(canvas.size), TileSheet(canvas, self.palette.tile)
         if canvas.scale != self.flat.scale:
@@ -100,7 +100,7 @@ class LevelSheet:
             self._dirty.append(self.flat.rect(CELL * column, CELL * row, CELL, CELL))
         # A tile hides the whole object in its cell, even what lies outside of the cell.
         covered = set(changed)
-        self._dirty += [each.rect for each in self._order if covered and not covered.isdisjoint(each.cells)]
+        self._dirty += [mark.rect for mark in self._order if covered and not covered.isdisjoint(mark.cells)]
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks

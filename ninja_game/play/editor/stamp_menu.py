@@ -38,8 +38,8 @@ class StampMenu(Menu):
         for picture, row in zip(self._pictures, self.widgets, strict=False):
             if picture:
                 x, y, _, h = row.area
-                (left, top), (wide, high) = canvas.point(x - 13 - _WIDE / 2, y + h / 2), picture.get_size()
-                surface.blit(picture, (left - wide // 2, top - high // 2))
+                (left, top), (width, height) = canvas.point(x - 13 - _WIDE / 2, y + h / 2), picture.get_size()
+                surface.blit(picture, (left - width // 2, top - height // 2))
 
     def _picture(self, path: Path) -> pygame.Surface | None:
         """The cells of a stamp, as large as there is room."""
@@ -51,9 +51,9 @@ class StampMenu(Menu):
         parts = [cell_of(*place) for spec in stamp.objects for place in points(spec).values()]
         if not (cells := [*stamp.tiles, *parts]):
             return None
-        left, top, wide, high = area_around(cells)
+        left, top, width, height = area_around(cells)
         # A far ninja, since no level is played without one; the stamp's own comes later, and is shown.
         level = Level(draft.level.tiles, (ObjectSpec(NINJA, (-400.0, -400.0)), *draft.level.objects))
-        side = self.theme.canvas.px(min(_CELL, _WIDE / wide, _HIGH / high))
+        side = self.theme.canvas.px(min(_CELL, _WIDE / width, _HIGH / height))
         picture = thumbnail(level, self.app.palette_in(self.mood), side * (COLUMNS + 2))
-        return picture.subsurface(picture.get_rect().clip((left * side, top * side, wide * side, high * side)))
+        return picture.subsurface(picture.get_rect().clip((left * side, top * side, width * side, height * side)))

@@ -302,7 +302,7 @@ class EditorView(Pane):
     def update(self, real_ms: int) -> None:
         """A drag beyond an edge scrolls the picture."""
         rect, (x, y) = self._rect, self._mouse
-        if self.session.tools.busy and not (self.by_keys or self.camera.zoom == 1 or rect.collidepoint(x, y)):
+        if self.session.tools.is_busy and not (self.by_keys or self.camera.zoom == 1 or rect.collidepoint(x, y)):
             way = real_ms * EDGE_SPEED * self.app.canvas.scale
             dx, dy = (x < rect.left) - (x >= rect.right), (y < rect.top) - (y >= rect.bottom)
             self.camera.move(rect.size, way * dx, way * dy)
@@ -377,7 +377,7 @@ class EditorView(Pane):
         elif button == pygame.BUTTON_MIDDLE:
             camera.grab(self._mouse)
         elif button:
-            add, copies = (bool(pygame.key.get_mods() & each) for each in (pygame.KMOD_SHIFT, pygame.KMOD_CTRL))
+            add, copies = (bool(pygame.key.get_mods() & modifier) for modifier in (pygame.KMOD_SHIFT, pygame.KMOD_CTRL))
             self.press(erase=button == pygame.BUTTON_RIGHT, add=add, copies=copies)
         return True
 

@@ -37,14 +37,14 @@ class GridOfCells(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p, own = sheet.palette, self.cell
+        palette, own = sheet.palette, self.cell
         shade_border(sheet)
         sheet.grid()
         for cell in [own + offset for offset in NINE_CELLS if own and EXISTS[own + offset]]:
-            sheet.shade(cell, p.switch if cell != own else p.good, 90)
+            sheet.shade(cell, palette.switch if cell != own else palette.good, 90)
             sheet.text(str(cell), CENTRE_X[cell], CENTRE_Y[cell] - 6, size=10)
         sheet.text("no cells", 7.5 * 24, -12)
-        sheet.circle(p.ninja, self.x, self.y, 2.5)
+        sheet.circle(palette.ninja, self.x, self.y, 2.5)
 
 
 def shade_border(sheet: Sheet) -> None:
@@ -79,15 +79,15 @@ class CellsTouched(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         shade_border(sheet)
         for offset in NINE_CELLS:
-            sheet.shade(self.cell + offset, p.switch, 40)
+            sheet.shade(self.cell + offset, palette.switch, 40)
         for number, cell in enumerate(touched_cells(self.x, self.y, self.cell)):
-            sheet.shade(cell, p.accent if number else p.good, 110)
+            sheet.shade(cell, palette.accent if number else palette.good, 110)
         sheet.grid()
-        sheet.body(p.ninja, self.x, self.y, RADIUS, box=self.box)
-        sheet.circle(p.ninja, self.x, self.y, 1.5)
+        sheet.body(palette.ninja, self.x, self.y, RADIUS, box=self.box)
+        sheet.circle(palette.ninja, self.x, self.y, 1.5)
 
 
 class NineCells(Figure):
@@ -122,23 +122,25 @@ class NineCells(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         centre = self.cell
         sheet.tiles(self.tiles)
         for number, offset in enumerate(NINE_CELLS, 1):
             cell = centre + offset
-            sheet.shade(cell, p.switch if offset else p.good, 60)
-            sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 7, size=9, colour=p.faint)
+            sheet.shade(cell, palette.switch if offset else palette.good, 60)
+            sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 7, size=9, colour=palette.faint)
         sheet.grid()
         slots, _ = self.objects_asked()
         for shape in hit_shapes(self.world):
             if not shape.ninja:
-                sheet.body(p.bad if shape.lethal else p.gold, shape.x, shape.y, shape.half, box=not shape.round)
+                sheet.body(
+                    palette.bad if shape.lethal else palette.gold, shape.x, shape.y, shape.half, box=not shape.round
+                )
         for number, slot in enumerate(slots, 1):
             o = self.world.objects[slot]
-            sheet.circle(p.good, o.x, o.y, 8.5, 2)
+            sheet.circle(palette.good, o.x, o.y, 8.5, 2)
             sheet.text(str(number), o.x, o.y, size=10)
-        sheet.body(p.ninja, self.x, self.y, RADIUS, box=False)
+        sheet.body(palette.ninja, self.x, self.y, RADIUS, box=False)
 
 
 _NINJA: Point = (292.0, 172.0)
@@ -223,11 +225,11 @@ class RayCast(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         tested, stopped, end = self.asked()
         for number, cell in enumerate(self.visited, 1):
-            sheet.shade(cell, p.accent if cell in tested else p.good, 80)
-            sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=p.faint)
+            sheet.shade(cell, palette.accent if cell in tested else palette.good, 80)
+            sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=palette.faint)
         sheet.tiles(self.tiles)
         sheet.grid()
         sheet.edges(self.world, self.visited)
@@ -235,12 +237,12 @@ class RayCast(Figure):
         for slot in range(1, self.world.id_count + 1):
             o = self.world.objects[slot]
             if o.x or o.y:
-                sheet.circle(p.gold, o.x, o.y, GOLD_RADIUS, 0 if slot in inside + missed else 1.5)
+                sheet.circle(palette.gold, o.x, o.y, GOLD_RADIUS, 0 if slot in inside + missed else 1.5)
                 if slot in missed:
-                    sheet.text("missed", o.x, o.y - 11, size=8, colour=p.bad)
+                    sheet.text("missed", o.x, o.y - 11, size=8, colour=palette.bad)
         n = self.world.ninja
-        sheet.circle(p.ninja, n.x, n.y, RADIUS, 2)
+        sheet.circle(palette.ninja, n.x, n.y, RADIUS, 2)
         start = self.from_x, self.from_y
-        sheet.arrow(p.bad, start, end if stopped else (self.x, self.y), 2)
-        sheet.circle(p.bad, *start, 3)
-        sheet.circle(p.bad, self.x, self.y, 4, 1.5)
+        sheet.arrow(palette.bad, start, end if stopped else (self.x, self.y), 2)
+        sheet.circle(palette.bad, *start, 3)
+        sheet.circle(palette.bad, self.x, self.y, 4, 1.5)

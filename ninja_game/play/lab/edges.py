@@ -96,17 +96,17 @@ class EdgeStates(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         sheet.tiles(self.tiles)
         sheet.grid()
         sheet.edges(self.world)
         x, y = tiles.CENTRE_X[self.cell], tiles.CENTRE_Y[self.cell]
-        sheet.shade(self.cell, p.good, 90)
-        sheet.arrow(p.good, (x, y), (x + 17 * tiles.UNIT_X[self.side], y + 17 * tiles.UNIT_Y[self.side]), 3)
+        sheet.shade(self.cell, palette.good, 90)
+        sheet.arrow(palette.good, (x, y), (x + 17 * tiles.UNIT_X[self.side], y + 17 * tiles.UNIT_Y[self.side]), 3)
         door = self.world.objects[self._door]
         cell, side = divmod(door.edge_1, 4)
         middle = tiles.CENTRE_X[cell] + 12 * tiles.UNIT_X[side], tiles.CENTRE_Y[cell] + 12 * tiles.UNIT_Y[side]
-        sheet.text("door", middle[0], middle[1] - 18, colour=p.lock)
+        sheet.text("door", middle[0], middle[1] - 18, colour=palette.lock)
 
 
 class Doors(EdgeStates):
@@ -155,20 +155,23 @@ class Doors(EdgeStates):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         sheet.tiles(self.tiles)
         sheet.grid()
         sheet.edges(self.world)
         seen, end = self.ray()
-        sheet.arrow(p.good if seen else p.bad, self.turret, end, 1.5)
-        sheet.circle(p.bad, *self.turret, 4)
-        sheet.body(p.faint, self.x, self.y, RADIUS, box=False, width=1.5)
-        sheet.body(p.ninja, *self.body.points[-1], RADIUS, box=False, width=3)
+        sheet.arrow(palette.good if seen else palette.bad, self.turret, end, 1.5)
+        sheet.circle(palette.bad, *self.turret, 4)
+        sheet.body(palette.faint, self.x, self.y, RADIUS, box=False, width=1.5)
+        sheet.body(palette.ninja, *self.body.points[-1], RADIUS, box=False, width=3)
         drone = next(o for o in self.world.objects if o.kind == DRONE)
-        sheet.circle(p.switch, drone.x, drone.y, DRONE_RADIUS, 2)
+        sheet.circle(palette.switch, drone.x, drone.y, DRONE_RADIUS, 2)
         side = _DIRECTIONS.index(self.drone_goes())
         sheet.arrow(
-            p.switch, (drone.x, drone.y), (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]), 3
+            palette.switch,
+            (drone.x, drone.y),
+            (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]),
+            3,
         )
         sheet.text("drone", drone.x - 32, drone.y - 14)
         sheet.text("turret", self.turret[0], self.turret[1] - 12)
@@ -250,15 +253,15 @@ class WalkingEnemies(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         self.stage.draw(sheet)
         sheet.grid()
         sheet.edges(self.stage.world)
         for number, o in enumerate(self._of_kind(DRONE), 1):
-            sheet.circle(p.switch, o.x, o.y, DRONE_RADIUS, 1.5)
+            sheet.circle(palette.switch, o.x, o.y, DRONE_RADIUS, 1.5)
             sheet.text(str(number), o.x, o.y - 15)
             if o.slot in self.decided:
                 x, y = tiles.CENTRE_X[self.decided[o.slot][0]], tiles.CENTRE_Y[self.decided[o.slot][0]]
                 for direction, state in self.tried(o):
                     tip = x + 11 * tiles.UNIT_X[direction], y + 11 * tiles.UNIT_Y[direction]
-                    sheet.arrow(p.bad if state else p.good, (x, y), tip, 1.5)
+                    sheet.arrow(palette.bad if state else palette.good, (x, y), tip, 1.5)

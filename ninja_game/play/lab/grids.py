@@ -172,27 +172,27 @@ class LooseGrid(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         nine, four = self.asked()
         for cell in nine:
-            sheet.shade(cell, p.switch, 60)
+            sheet.shade(cell, palette.switch, 60)
         for cell in four:
-            sheet.shade(cell, p.good, 90)
+            sheet.shade(cell, palette.good, 90)
         sheet.grid()
         for o in self.crowd.objects:
-            sheet.circle(p.gold if o.cell in nine else p.faint, o.x, o.y, self.crowd.radius, 1.2)
+            sheet.circle(palette.gold if o.cell in nine else palette.faint, o.x, o.y, self.crowd.radius, 1.2)
             if o.next:
                 other = self.crowd.world.objects[o.next]
-                sheet.arrow(p.accent, (o.x, o.y), (other.x, other.y), 1.2)
-        sheet.circle(p.ninja, self.x, self.y, self.crowd.radius, 2.5)
+                sheet.arrow(palette.accent, (o.x, o.y), (other.x, other.y), 1.2)
+        sheet.circle(palette.ninja, self.x, self.y, self.crowd.radius, 2.5)
         self._draw_plot(sheet)
 
     def _draw_plot(self, sheet: Sheet) -> None:
-        p, (x, y, w, h) = sheet.palette, CHART
-        sheet.canvas.fill_rect(sheet.surface, p.panel, x - 6, y - 22, w + 16, h + 44, 4)
+        palette, (x, y, w, h) = sheet.palette, CHART
+        sheet.canvas.fill_rect(sheet.surface, palette.panel, x - 6, y - 22, w + 16, h + 44, 4)
         rows = [measured(count, self.radius) for count in MEASURED]
         most = max(1, *(work[self.plot] for row in rows for work in row))
-        for grid, colour in ((0, p.switch), (1, p.accent)):
+        for grid, colour in ((0, palette.switch), (1, palette.accent)):
             points = [
                 (x + w * count / MEASURED[-1], y + h - h * row[grid][self.plot] / most)
                 for count, row in zip(MEASURED, rows, strict=True)
@@ -200,7 +200,7 @@ class LooseGrid(Figure):
             for start, end in pairwise(points):
                 sheet.line(colour, start, end, 2)
             sheet.text(("loose", "normal")[grid], x + 30 + 80 * grid, y - 12, size=9, colour=colour)
-        sheet.line(p.faint, (x, y + h), (x + w, y + h))
+        sheet.line(palette.faint, (x, y + h), (x + w, y + h))
         sheet.text(f"a tick: up to {most}", x + w - 55, y - 12, size=8)
         sheet.text(f"objects: up to {MEASURED[-1]}", x + w - 55, y + h + 11, size=8)
 
@@ -251,20 +251,20 @@ class FiveCells(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         if self.tested and not self.done:
             cell = self.tested[-1][0].cell
             for offset in FIVE_CELLS:
-                sheet.shade(cell + offset, p.switch if offset else p.good, 90)
+                sheet.shade(cell + offset, palette.switch if offset else palette.good, 90)
         sheet.grid()
         for o in self.crowd.objects:
-            sheet.circle(p.faint, o.x, o.y, self.crowd.radius, 1.2)
+            sheet.circle(palette.faint, o.x, o.y, self.crowd.radius, 1.2)
         for a, b in self.found:
             one, two = self.crowd.world.objects[a], self.crowd.world.objects[b]
-            sheet.line(p.accent, (one.x, one.y), (two.x, two.y), 3)
+            sheet.line(palette.accent, (one.x, one.y), (two.x, two.y), 3)
         if self.tested and not self.done:
             one, two = self.tested[-1]
-            sheet.line(p.ninja, (one.x, one.y), (two.x, two.y), 1.5)
+            sheet.line(palette.ninja, (one.x, one.y), (two.x, two.y), 1.5)
 
 
 class Bullets(Figure):
@@ -318,10 +318,12 @@ class Bullets(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         sheet.grid()
         for o in self.targets.objects:
-            sheet.circle(p.switch, o.x, o.y, self.targets.radius, 1.5)
+            sheet.circle(palette.switch, o.x, o.y, self.targets.radius, 1.5)
         size = max(2, round(2 * sheet.canvas.scale))
         for o in self.bullets.objects:
-            sheet.surface.fill(p.bad if self.filed else p.ninja, (*sheet.canvas.point(o.x, o.y), size, size))
+            sheet.surface.fill(
+                palette.bad if self.filed else palette.ninja, (*sheet.canvas.point(o.x, o.y), size, size)
+            )

@@ -104,20 +104,20 @@ class OneTick(Figure):
         return [(f"tick {world.tick}", f"{phase}. {doing}" if phase else doing), *rows, ("events", events or "none")]
 
     def draw(self, sheet: Sheet) -> None:
-        p, w = sheet.palette, self.stage.world
+        palette, w = sheet.palette, self.stage.world
         self.stage.draw(sheet)
         call = self.calls[min(int(self.at), len(self.calls) - 1)]
         n = w.ninja
         number, _ = self.phase
         if number == 4 and EXISTS[n.cell]:
             for offset in NINE_CELLS:
-                sheet.shade(n.cell + offset, p.switch, 60)
+                sheet.shade(n.cell + offset, palette.switch, 60)
         elif number == 5:
             for cell in touched_cells(n.x, n.y, n.cell):
-                sheet.shade(cell, p.good, 90)
+                sheet.shade(cell, palette.good, 90)
         sheet.grid()
         if "o" in call.arguments:
             o = w.objects[int(call.arguments["o"])]
-            sheet.circle(p.accent, o.x, o.y, 15, 2.5)
+            sheet.circle(palette.accent, o.x, o.y, 15, 2.5)
         elif number >= 3:
-            sheet.circle(p.accent, n.x, n.y, 15, 2.5)
+            sheet.circle(palette.accent, n.x, n.y, 15, 2.5)

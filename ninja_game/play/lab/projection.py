@@ -24,7 +24,7 @@ from ninja_game.simulation import Simulation
 
 _COLUMN, _ROW = 8, 5
 
-PUSH = "push_from_tile"
+PUSH_RULE = "push_from_tile"
 STAGES = ("collide_circle", "collide_box", "collide_corner")
 """Functions that read edges; a push by one of them has not looked at a shape."""
 
@@ -38,14 +38,14 @@ class Push(NamedTuple):
     calls: list[Call]
 
     @property
-    def ran(self) -> list[str]:
+    def rules_run(self) -> list[str]:
         """The rules that ran for a shape, outermost first; for a death only the event."""
         calls = (call for call in self.calls if call.depth and call.caller not in ("kill", "emit_death", "emit"))
-        return [call.name for call in calls if call.name not in (PUSH, "note_normal", "cell_at")]
+        return [call.name for call in calls if call.name not in (PUSH_RULE, "note_normal", "cell_at")]
 
     @property
-    def by_edge(self) -> int:
-        return sum(call.name in (PUSH, "push_from_corner") and call.caller in STAGES for call in self.calls)
+    def edge_pushes(self) -> int:
+        return sum(call.name in (PUSH_RULE, "push_from_corner") and call.caller in STAGES for call in self.calls)
 
     @property
     def shape_tests(self) -> int:
@@ -63,7 +63,7 @@ def pushed(tiles: TileMap, w: World, x: float, y: float, *, box: bool = False) -
     restore_plain(w, before)
     points = [(x, y)]
     for call in calls:
-        if call.name == PUSH:
+        if call.name == PUSH_RULE:
             points.append((points[-1][0] + call.arguments["qx"], points[-1][1] + call.arguments["qy"]))
     return Push(points, calls)
 
@@ -79,7 +79,7 @@ class Projection(Figure):
 
     def reset(self) -> None:
         super().reset()
-        self.by_edge = self.shape_tests = 0
+        self.edge_pushes = self.shape_tests = 0
         self.rebuild()
 
     def rebuild(self) -> None:
@@ -104,40 +104,40 @@ class Projection(Figure):
 
     def tick(self) -> None:
         push = self.push()
-        self.by_edge += push.by_edge
+        self.edge_pushes += push.edge_pushes
         self.shape_tests += push.shape_tests
 
     def numbers(self) -> list[tuple[str, str]]:
         push = self.push()
         (x, y), (to_x, to_y) = push.points[0], push.points[-1]
-        pushes = [call.arguments for call in push.calls if call.name == PUSH]
+        pushes = [call.arguments for call in push.calls if call.name == PUSH_RULE]
         normals = ", ".join(f"({contact['mx']:.2f}, {contact['my']:.2f})" for contact in pushes)
         return [
             ("pair", f"{tile_name(self.tile)} with {'box' if self.box else 'circle'}"),
-            ("rules that ran", " > ".join(push.ran[:2]) or "none: every edge is off"),
-            ("", " > ".join(push.ran[2:])),
+            ("rules that ran", " > ".join(push.rules_run[:2]) or "none: every edge is off"),
+            ("", " > ".join(push.rules_run[2:])),
             ("pushes", f"{len(pushes)}, in all ({to_x - x:+.2f}, {to_y - y:+.2f}) px"),
             ("normals", normals or "none"),
-            ("here", f"by edge alone {push.by_edge}, shape tests {push.shape_tests}"),
-            ("since the reset", f"by edge alone {self.by_edge}, shape tests {self.shape_tests}"),
+            ("here", f"by edge alone {push.edge_pushes}, shape tests {push.shape_tests}"),
+            ("since the reset", f"by edge alone {self.edge_pushes}, shape tests {self.shape_tests}"),
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         sheet.tiles(self.tiles)
         sheet.grid()
         sheet.edges(self.world)
         push = self.push()
         for call in push.calls:
             for a, b in candidates(call):
-                sheet.arrow(p.faint, (self.x, self.y), (self.x + a, self.y + b), 2)
+                sheet.arrow(palette.faint, (self.x, self.y), (self.x + a, self.y + b), 2)
         x, y = push.points[-1]
-        sheet.body(p.faint, self.x, self.y, RADIUS, box=self.box, width=1.5)
-        sheet.body(p.good if len(push.points) > 1 else p.ninja, x, y, RADIUS, box=self.box, width=3)
+        sheet.body(palette.faint, self.x, self.y, RADIUS, box=self.box, width=1.5)
+        sheet.body(palette.good if len(push.points) > 1 else palette.ninja, x, y, RADIUS, box=self.box, width=3)
         for start, end in pairwise(push.points):
-            sheet.arrow(p.accent, start, end, 3)
+            sheet.arrow(palette.accent, start, end, 3)
         cell = cell_index(_COLUMN, _ROW)
-        sheet.circle(p.faint, CENTRE_X[cell], CENTRE_Y[cell], 0.6)
+        sheet.circle(palette.faint, CENTRE_X[cell], CENTRE_Y[cell], 0.6)
 
 
 class Response(Projection):
@@ -170,15 +170,19 @@ class Response(Projection):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p, push = sheet.palette, self.push()
+        palette, push = sheet.palette, self.push()
         sheet.tiles(self.tiles)
         sheet.grid()
-        for colour, place in ((p.faint, self.origin), (p.faint, (self.x, self.y)), (p.good, push.points[-1])):
+        for colour, place in (
+            (palette.faint, self.origin),
+            (palette.faint, (self.x, self.y)),
+            (palette.good, push.points[-1]),
+        ):
             sheet.body(colour, *place, RADIUS, box=self.box)
-        sheet.arrow(p.ninja, self.origin, (self.x, self.y), 3)
+        sheet.arrow(palette.ninja, self.origin, (self.x, self.y), 3)
         for start, end in pairwise(push.points):
-            sheet.arrow(p.accent, start, end, 3)
-        sheet.arrow(p.good, self.origin, push.points[-1], 3)
+            sheet.arrow(palette.accent, start, end, 3)
+        sheet.arrow(palette.good, self.origin, push.points[-1], 3)
 
 
 class Bodies(Figure):
@@ -226,14 +230,14 @@ class Bodies(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        p = sheet.palette
+        palette = sheet.palette
         sheet.tiles(self.runs[0].tiles)
         sheet.grid()
-        for box, (path, colour) in enumerate(zip(self.paths, (p.good, p.bad), strict=True)):
+        for box, (path, colour) in enumerate(zip(self.paths, (palette.good, palette.bad), strict=True)):
             for start, end in pairwise(path):
                 sheet.line(colour, start, end, 2)
             sheet.body(colour, *path[-1], RADIUS, box=bool(box), width=3)
-        sheet.body(p.ninja, self.x, self.y, RADIUS, box=False, width=1.5)
+        sheet.body(palette.ninja, self.x, self.y, RADIUS, box=False, width=1.5)
 
 
 def candidates(call: Call) -> list[Point]:

@@ -118,8 +118,8 @@ class LabScreen(MenuScreen):
         chosen = index == self.list.index
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        high = theme.common_height([figure.title for figure in self.figures], 11, w - 12)
-        theme.text(surface, self.figures[index].title, x + 8, y + 4, size=11, bold=chosen, width=w - 12, height=high)
+        height = theme.common_height([figure.title for figure in self.figures], 11, w - 12)
+        theme.text(surface, self.figures[index].title, x + 8, y + 4, size=11, bold=chosen, width=w - 12, height=height)
 
 
 class FigureArea(Widget):

@@ -22,7 +22,7 @@ from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menu_screen import Action, ask_received
 from ninja_game.play.menus.episodes import draw_look
-from ninja_game.play.menus.problems import Problem, of_files, problems_button
+from ninja_game.play.menus.problems import Problem, file_problems, problems_button
 from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.panels.settings import PRACTICE_HINT
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text, where_from
@@ -35,7 +35,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Widget
 
 _ROW = 54
-_PICTURE = 60
+_PICTURE_SIZE = 60
 _SIDE, SIDE_WIDTH, COMMENT_HIGH = 436, 320, 85
 _SORT_ORDERS: list[tuple[str, object]] = [
     ("Mine first", "listed"),
@@ -63,14 +63,14 @@ class Browser(ThumbnailScreen):
         self.problems: list[Problem] = []
         self.entries: list[Entry] = []
         self.shown: list[Entry] = []
-        self.bests: dict[str, SavedReplay] = {}
+        self.best_replays: dict[str, SavedReplay] = {}
         self.marks: dict[str, Mark] = {}
         self._count = ""
         self.list = ListView(
             (44, 112, 376, 8 * _ROW), _ROW, self._draw_row, self.play, selected=self._select, opens=True
         )
         self.list.empty, self.list.hint = "No level matches", "Enter to play, Right for more, Up to search"
-        self.play_it = Button((_SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
+        self.play_button = Button((_SIDE, 470, 154, 32), "Play", lambda: self.play(self.list.index))
         self.practice = Button(
             (_SIDE + 166, 470, 154, 32), "Practice", lambda: self.play(self.list.index, practice=True)
         )
@@ -85,9 +85,9 @@ class Browser(ThumbnailScreen):
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.entries = catalogue.single_levels()
-        self.bests = self.player.records.level_bests()
+        self.best_replays = self.player.records.level_bests()
         self.marks = self.player.marks.all()
-        self.problems = of_files(catalogue.shown_problems)
+        self.problems = file_problems(catalogue.shown_problems)
         self.message = ""
         self._arrange()
         super().enter()
@@ -106,7 +106,7 @@ class Browser(ThumbnailScreen):
         more = [self.change] if self._edit else []
         if self._packs:
             more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Bundle your levels into packs"))
-        return [*self.choosers(), self.play_it, self.practice, *watch, *more, self.link]
+        return [*self.choosers(), self.play_button, self.practice, *watch, *more, self.link]
 
     def handle(self, event: InputEvent) -> None:
         """A dropped file is copied into the player's folder, a pack goes to the screen of packs.
@@ -145,7 +145,7 @@ class Browser(ThumbnailScreen):
 
     def _arrange(self) -> None:
         words = self.entry_field.text.casefold().split()
-        matching = [e for e in self.entries if all(word in _words(e) for word in words)]
+        matching = [e for e in self.entries if all(word in _searched_text(e) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
@@ -174,17 +174,17 @@ class Browser(ThumbnailScreen):
         """Only unlocked levels can be played, only passed ones be watched; a button that is off says why."""
         selected = self.selected
         lock = self.player.lock_of(selected) if selected else "No level"
-        self.play_it.enabled = self.practice.enabled = not lock
-        self.play_it.hint, self.practice.hint = lock, lock or PRACTICE_HINT
+        self.play_button.enabled = self.practice.enabled = not lock
+        self.play_button.hint, self.practice.hint = lock, lock or PRACTICE_HINT
         for button, hint in (self.change, "Open it in the editor"), (self.link, "Copy a link that opens this level"):
             button.enabled, button.hint = selected is not None, hint if selected else lock
-        self.watch_best.enabled = selected is not None and selected.digest in self.bests
+        self.watch_best.enabled = selected is not None and selected.digest in self.best_replays
         name, ours = self.player.settings.name, selected is not None and selected.source == GAME
-        mine = selected is not None and not ours and (selected.source == YOURS or name == selected.named.author)
+        is_own = selected is not None and not ours and (selected.source == YOURS or name == selected.named.author)
         known = ours or bool(selected and self.player.catalogue.author_run(selected))
-        opened = mine or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
+        opened = is_own or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
         self.watch_author.enabled = known and opened
-        unknown = "none is known: Certify, in the editor, finds one" if mine else "none is known"
+        unknown = "none is known: Certify, in the editor, finds one" if is_own else "none is known"
         lock_hint = "earn a gold medal to watch it" if known else unknown
         self.watch_author.hint = "" if self.watch_author.enabled else lock_hint
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
@@ -224,7 +224,7 @@ class Browser(ThumbnailScreen):
             watch_replays(self.app, [self.player.catalogue.author_run(self.selected)])
 
     def _watch(self) -> None:
-        best = self.bests.get(self.selected.digest) if self.selected else None
+        best = self.best_replays.get(self.selected.digest) if self.selected else None
         if best is not None:
             watch_replays(self.app, [self.player.records.replay(best.id)])
 
@@ -233,17 +233,17 @@ class Browser(ThumbnailScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         entry = self.selected
         theme.text(surface, self._count, 44, 549, size=9.5, colour=palette.faint)
-        word = "" if self.watch_author.enabled or entry is None else f"Author's run: {self.watch_author.hint}"
+        hint = "" if self.watch_author.enabled or entry is None else f"Author's run: {self.watch_author.hint}"
         colour = palette.bad if self.message else palette.faint
-        theme.text(surface, self.message or word, _SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
+        theme.text(surface, self.message or hint, _SIDE, 548, size=10, colour=colour, width=SIDE_WIDTH)
         if entry is None:
             return
         self.thumbnails.draw(surface, entry, _SIDE + 28, 66, SIDE_WIDTH - 56)
         theme.text(surface, entry.title, _SIDE, 278, size=17, bold=True, width=SIDE_WIDTH - 44)
         unsigned = "yours" if entry.source == YOURS else "author unknown"
         by = f"by {author_name(entry.named.author)}" if entry.named.author else unsigned
-        about = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, about, _SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        subtitle = "    ".join(filter(None, (by, where_from(entry))))
+        theme.text(surface, subtitle, _SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
         theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, SIDE_WIDTH, COMMENT_HIGH), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
@@ -261,14 +261,14 @@ class Browser(ThumbnailScreen):
         x, y, w, h = area
         chosen = index == self.list.index
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
-        self.thumbnails.draw(surface, entry, x + 4, y + 4, _PICTURE)
-        left = x + _PICTURE + 14
+        self.thumbnails.draw(surface, entry, x + 4, y + 4, _PICTURE_SIZE)
+        left = x + _PICTURE_SIZE + 14
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=186)
         if self.player.lock_of(entry):
-            draw_look(surface, theme, "locked", (x + 4 + _PICTURE / 2 - 11, y + 16, 22, 22))
+            draw_look(surface, theme, "locked", (x + 4 + _PICTURE_SIZE / 2 - 11, y + 16, 22, 22))
         by = author_name(entry.named.author) if entry.source == YOURS else ""
         source = "    ".join(filter(None, (by, where_from(entry))))
-        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=w - _PICTURE - 64)
+        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=w - _PICTURE_SIZE - 64)
         mark = self.marks.get(entry.digest)
         if mark:
             time = f"{seconds_text(mark.fastest)} s"
@@ -302,7 +302,7 @@ class LevelChoice(Browser):
             self._choose(self.shown[index])
 
 
-def _words(entry: Entry) -> str:
+def _searched_text(entry: Entry) -> str:
     named = entry.named
     words = entry.title, named.author, named.comment, named.teaches, entry.episode, entry.place, entry.source
     return " ".join(map(str, words)).casefold()

@@ -32,7 +32,7 @@ _SIDE, _SIDE_WIDTH, _WEEK = 548, 200, 272
 DIG_MS = 60  # ms per cell of the cave that is drawn while a level is made
 
 
-class _Maker:
+class _DailyMaker:
     """A thread that makes the level of a day. ``progress``: a text; ``problem``: why it failed."""
 
     def __init__(self, levels: Path, day: date) -> None:
@@ -65,7 +65,7 @@ class DailyScreen(ThumbnailScreen):
         self.entry: Entry | None = None
         self.days: dict[str, Entry] = {}
         self.message = ""
-        self._maker: _Maker | None = None
+        self._maker: _DailyMaker | None = None
         self._shown = ""
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
         self._dug, self._heading, self._dig_ms = [(16, 12)], (1, 0), 0
@@ -81,7 +81,7 @@ class DailyScreen(ThumbnailScreen):
         self._find()
         super().enter()
         if self.entry is None and not self.message:
-            self._maker = _Maker(self.player.folder / LEVELS, self.day)
+            self._maker = _DailyMaker(self.player.folder / LEVELS, self.day)
 
     def leave(self) -> None:
         """Stop making the level; the next visit starts again."""
@@ -159,9 +159,9 @@ class DailyScreen(ThumbnailScreen):
                 canvas.fill_rect(surface, palette.background, _LEFT + cell * column, _TOP + cell * row, cell, cell)
             if self._maker:
                 theme.panel(surface, _LEFT + 20, _TOP + 140, _WIDE - 40, 64)
-                for down, size, text in ((150, 16, "Building today's level"), (180, 11, self._maker.progress)):
+                for offset, size, text in ((150, 16, "Building today's level"), (180, 11, self._maker.progress)):
                     middle = _LEFT + _WIDE / 2
-                    theme.text(surface, text, middle, _TOP + down, size=size, align="centre", width=_WIDE - 60)
+                    theme.text(surface, text, middle, _TOP + offset, size=size, align="centre", width=_WIDE - 60)
         else:
             self._draw_entry(surface, entry)
         if self.message:

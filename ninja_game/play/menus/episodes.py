@@ -14,7 +14,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
-from ninja_game.play.menus.problems import of_files, problems_button
+from ninja_game.play.menus.problems import file_problems, problems_button
 from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.player_data import PlayerData
@@ -151,7 +151,7 @@ class EpisodeGrid(ThumbnailScreen):
         catalogue = self.player.catalogue
         catalogue.problems.clear()
         self.packs = [pack for pack in catalogue.packs() if pack.episodes and not (self.previews and pack.key != key)]
-        self.problems = of_files(catalogue.shown_problems)
+        self.problems = file_problems(catalogue.shown_problems)
         self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
 
     @property
@@ -184,7 +184,7 @@ class EpisodeGrid(ThumbnailScreen):
     @property
     def _is_lent(self) -> bool:
         """Whether the pack is a zip or link that is none of the player's files."""
-        return self.pack.path in self.player.catalogue.more and not (self.pack.changeable or self.previews)
+        return self.pack.path in self.player.catalogue.more and not (self.pack.is_changeable or self.previews)
 
     def _keep(self) -> None:
         """Receive the pack like a file that is dropped on the main menu, which lies below."""
@@ -283,8 +283,8 @@ class EpisodeGrid(ThumbnailScreen):
             theme.text(surface, "No episodes", _SIDE, 66, size=16, colour=palette.faint, bold=True)
             return
         head = f"{episode.code}  {episode.name}"
-        room = 174 if self._is_lent else 264
-        theme.text(surface, head, _SIDE, 66, size=16, bold=True, width=room)
+        width = 174 if self._is_lent else 264
+        theme.text(surface, head, _SIDE, 66, size=16, bold=True, width=width)
         best = self.player.records.episode_best(episode.key)
         clock = f"Your best: {seconds_text(best.score)} s left on the clock" if best else ""
         count = len(episode.levels)
@@ -369,13 +369,13 @@ class EpisodeGrid(ThumbnailScreen):
         theme.row(surface, (x, y + 2, w, h - 4), chosen=focused, focused=focused)
         self.thumbnails.draw(surface, entry, x + 6, y + 5, SMALL_PICTURE)
         left = x + SMALL_PICTURE + 18
-        room = w - SMALL_PICTURE - 24
-        theme.text(surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=room - 46)
+        width = w - SMALL_PICTURE - 24
+        theme.text(surface, f"{index + 1}  {entry.title}", left, y + 12, size=13, bold=True, width=width - 46)
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
         played = self.player.statistics.played(entry.digest)
         colour = theme.palette.good if mark else theme.palette.faint
-        theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=room)
+        theme.text(surface, self.player.reached(entry, mark), left, y + 32, size=11, colour=colour, width=width)
         draw_pars(surface, theme, entry.pars, mark and mark.fastest, left, y + 45, MEDALS_FROM_BRONZE[1:])
         if played.attempts:
             theme.text(surface, tries_text(played), left, y + 65, size=10, colour=theme.palette.faint)

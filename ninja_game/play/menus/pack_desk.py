@@ -72,7 +72,7 @@ class PackDesk(ThumbnailScreen):
         self.new_path = None
         self.player.catalogue.problems.clear()
         self.sets = self.player.catalogue.packs()
-        self.own_packs = [pack for pack in self.sets if pack.changeable]
+        self.own_packs = [pack for pack in self.sets if pack.is_changeable]
         pack = next((pack for pack in self.own_packs if pack.path == before), None)
         if not (news and pack is self.pack):
             self.show(pack)
@@ -81,7 +81,7 @@ class PackDesk(ThumbnailScreen):
         self.pack = pack = pack or next(iter(self.own_packs), None)
         self.packer.watch(self, pack and pack.path)
         self.status.show(pack)
-        if not self.packer.busy:
+        if not self.packer.is_busy:
             self.packer.follow(next((shelf.pack for shelf in self.own_packs if shelf.path == self.packer.path), None))
         cells: list[PackCell] = []
         if pack and pack.pack:
@@ -304,7 +304,7 @@ class PackDesk(ThumbnailScreen):
     def leave(self) -> None:
         super().leave()
         self.moving = self.pointer = None
-        if not self.packer.busy:
+        if not self.packer.is_busy:
             self.packer.drop_notices()
 
     def draw_widgets(self, surface: pygame.Surface) -> None:

@@ -61,11 +61,11 @@ class PackList(ThumbnailScreen):
         faint = theme.palette.faint
         theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
         self.thumbnails.draw_pack(surface, pack.levels, x + 6, y + 4, _PICTURE)
-        left, room = x + _PICTURE + 20, w - _PICTURE - 30
-        theme.text(surface, shown_text(pack.name), left, y + 16, size=13, bold=chosen, width=room)
-        theme.text(surface, _description(pack), left, y + 38, size=10, colour=faint, width=room)
+        left, width = x + _PICTURE + 20, w - _PICTURE - 30
+        theme.text(surface, shown_text(pack.name), left, y + 16, size=13, bold=chosen, width=width)
+        theme.text(surface, _description(pack), left, y + 38, size=10, colour=faint, width=width)
         text = f"{pack_size(pack)}{', received' if pack.received else ''}"
-        theme.text(surface, text, left, y + 58, size=10, colour=faint, width=room)
+        theme.text(surface, text, left, y + 58, size=10, colour=faint, width=width)
 
 
 def pack_size(pack: EpisodeSet) -> str:

@@ -38,7 +38,7 @@ def pack_menu(desk: PackDesk) -> None:
         return
     key, name = desk.pack.key, desk.pack.name
     empty = not pack.episodes
-    busy = desk.packer.busy and desk.packer.path == desk.path
+    busy = desk.packer.is_busy and desk.packer.path == desk.path
     deleting = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
     without = "No episode has levels" if empty else ""
     play = None if empty else lambda: desk.app.push(EpisodeGrid(desk.app, key))

@@ -26,7 +26,7 @@ from ninja_game.play.menus.pack_menus import pack_form, pack_menu, view
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.panels.files import FilesScreen
-from ninja_game.runs.packs import level_of
+from ninja_game.runs.packs import level_file_of
 
 _STOPS = "It can be stopped at any time: what was found is kept."
 
@@ -48,18 +48,18 @@ def problems(desk: PackDesk) -> list[Problem] | None:
     if not (verdict or to_do):
         return rows
     text = ". ".join(filter(None, (verdict, to_do)))
-    if desk.zipped and desk.packer.fresh and not to_do:
+    if desk.zipped and desk.packer.is_fresh and not to_do:
         hint = f"Or send the zip: {short_path(desk.zipped)}"
         last = Problem(text, hint, partial(copy_the_link, desk), step="Copy the link")
     else:
         hint = _STOPS if to_do else "It writes the zip and the link."
         last = Problem(text, hint, partial(prepare_shown, desk), step="Make ready")
-    return [*rows, last._replace(go=None) if desk.packer.busy else last]
+    return [*rows, last._replace(go=None) if desk.packer.is_busy else last]
 
 
 def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
     file, code = finding.file, finding.code
-    entry = desk.entry_of(level_of(pack, file))
+    entry = desk.entry_of(level_file_of(pack, file))
     values = {name: _as_seen(pack, value) for name, value in finding.values.items()}
     text = finding.text_with(values)
     text = f"{entry.title}: {text}" if entry else text[:1].upper() + text[1:]
@@ -78,7 +78,7 @@ def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
 
     may = bool(file) and code not in NEVER_ACCEPTED
     accept_it = partial(desk.ask_text_for, "Accept this warning: why?", "", accept) if may else None
-    missing = missing_run(pack, finding) if finding.sought and not desk.packer.busy else None
+    missing = missing_run(pack, finding) if finding.sought and not desk.packer.is_busy else None
     longer = partial(desk.packer.search_longer, desk.path, missing) if missing else None
     return Problem(text, finding.hint, go, accept_it, search=longer)
 

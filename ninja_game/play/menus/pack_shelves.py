@@ -129,9 +129,9 @@ class Rack(ListView):
         self.thumbnails.draw(surface, level, x, y, WIDE - 12)
         pars = level.pars if state not in (*NOT_CERTIFIED, NOT_FOUND) else None
         gold = pars is not None and pars.gold is not None and level.all_gold > 0
-        title, room = shown_text(level.title), w - 12 * gold
-        top = y + (63 if len(wrapped(theme, title, room, 9.5)) > 1 else 69)
-        theme.paragraph(surface, [title], (x, top, room, 22), 9.5, 10.5)
+        title, width = shown_text(level.title), w - 12 * gold
+        top = y + (63 if len(wrapped(theme, title, width, 9.5)) > 1 else 69)
+        theme.paragraph(surface, [title], (x, top, width, 22), 9.5, 10.5)
         colour = palette.good if pars else palette.bad if state in ("changed", NOT_FOUND) else palette.faint
         theme.text(surface, state, x, y + 86, size=8.5, colour=colour, width=w - 40 if pars else w)
         if gold:

@@ -49,7 +49,7 @@ class Packer(Aside):
         self._watching: tuple[Screen, Path | None] | None = None  #: the desk, and the pack that it shows
         self.obstacles: Obstacles = {}
         self.steps = Steps(app.player.folder)  #: what was done at the desk
-        self.busy = self._stopped = False
+        self.is_busy = self._stopped = False
         self.text = ""  #: progress, or result
         self._result_text = ""
         self.share: float | None = None  #: finished share of the present step; None: unknown
@@ -69,13 +69,13 @@ class Packer(Aside):
         self._watching = desk, shown
 
     @property
-    def fresh(self) -> bool:
+    def is_fresh(self) -> bool:
         """Whether the zip has all that is in the pack now."""
         return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
         """Make a pack ready. ``known``: problems that are not asked about; None: what is wrong is asked before."""
-        self._known, self.path, self.busy, self._stopped = known, path, True, False
+        self._known, self.path, self.is_busy, self._stopped = known, path, True, False
         self.saved = self._open_problems = None
         self._seconds = seconds
         self._say("Beginning", 0.0)
@@ -88,7 +88,7 @@ class Packer(Aside):
 
     def end(self) -> None:
         """Stop; results are on the disk already."""
-        if not self.busy:
+        if not self.is_busy:
             return
         self._stopped = True
         with suppress(NinjaGameError, OSError):
@@ -109,14 +109,14 @@ class Packer(Aside):
         return prepare_pack(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
     def update(self) -> None:
-        if not self.busy:
+        if not self.is_busy:
             return
         text, share, start = self._step
         seconds = monotonic() - start
         self.text = "Stopping" if self._stopped else text if share is not None else f"{text}: {seconds:.0f} s"
         self.share = share
-        if self._job.idle:
-            self.busy, self.text = False, self._job.problem
+        if self._job.is_idle:
+            self.is_busy, self.text = False, self._job.problem
             if self.app.stack:
                 self.app.top.look_again()
             ready = None if self.text else self._job.result
@@ -220,7 +220,7 @@ class PackStatus:
     def update(self) -> bool:
         """Whether there are new findings, or a new reason why there are none."""
         checked, failure = self.checked, self.failure
-        if self._checks.idle:
+        if self._checks.is_idle:
             self.checked, self.failure = self._checks.result, self._checks.problem
         return self.checked is not checked or self.failure != failure
 
@@ -240,7 +240,7 @@ class PackStatus:
         work["look for all gold in"] = gold, "level"
         parts = [f"{verb} {counted(*count)}" for verb, count in work.items() if count[0]]
         parts = parts or (["renew the medal times"] if to_do else [])
-        running = self.packer.busy and self.pack is not None and self.packer.path == self.pack.path
+        running = self.packer.is_busy and self.pack is not None and self.packer.path == self.pack.path
         will = "Make ready is at work, and will" if running else "Make ready will"
         if len(parts) < 2:
             return f"{will} {parts[0]}" if parts else ""
@@ -257,7 +257,7 @@ class PackStatus:
             else:
                 run = self.catalogue.author_run(level)
                 vain = (level.named.level, "exit") in self.packer.obstacles
-                stopped = level.named.level in SOLVER.stopped and not self.packer.busy
+                stopped = level.named.level in SOLVER.stopped and not self.packer.is_busy
                 untried = "stopped" if stopped else "changed" if has_certificate else "no run yet"
                 state = "certified" if run else NOT_FOUND if vain else untried
             self._states[id(level)] = state

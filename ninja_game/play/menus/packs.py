@@ -36,10 +36,10 @@ _DRAG = "Drag a level or an episode; Enter or a second click: what can be done. 
 _MOVES = "Let go where it is to be; with Ctrl, a copy. The colours of a level go by its place in the pack"
 
 
-class _Shown(NamedTuple):
+class _ShownState(NamedTuple):
     """What the screen shows that changes by itself."""
 
-    busy: bool = False
+    is_busy: bool = False
     obstacles: int = 0
     text: str = ""
     notice: str = ""
@@ -47,7 +47,7 @@ class _Shown(NamedTuple):
 
 class PackScreen(PackDesk):
     foot_high = 552.0
-    _shown = _Shown()
+    _shown = _ShownState()
 
     def build(self) -> Sequence[Widget]:
         app = self.app
@@ -65,10 +65,10 @@ class PackScreen(PackDesk):
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
         tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.tray_key, self.choose_tray)
-        steps, busy = self.packer.steps, self.packer.busy
+        steps, busy = self.packer.steps, self.packer.is_busy
 
-        def button(x: float, wide: float, text: str, act: Callable[[PackDesk], object], hint: str = "") -> Button:
-            return Button((x, 60, wide, 28), text, partial(act, self), hint=hint, size=10)
+        def button(x: float, width: float, text: str, act: Callable[[PackDesk], object], hint: str = "") -> Button:
+            return Button((x, 60, width, 28), text, partial(act, self), hint=hint, size=10)
 
         undo = button(180, 42, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].name}" if steps else "")
         undo.enabled = bool(steps)
@@ -81,35 +81,35 @@ class PackScreen(PackDesk):
             for row, large in enumerate((new, paste, unzip)):
                 large.area, large.size = (276, 220 + 56 * row, 240, 44), 14
             return [new, paste, unzip, undo] if steps else [new, paste, unzip]
-        about = button(446, 48, "More...", pack_menus.pack_menu, "Preview, name, copy or delete the pack")
+        more = button(446, 48, "More...", pack_menus.pack_menu, "Preview, name, copy or delete the pack")
         hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
         hint = shown_text(pack.index.summary, 200) if received else hint
         opener = self.play_button = button(498, 54, "Play" if received else "Preview", pack_menus.view, hint)
         opener.enabled = bool(self.pack and self.pack.episodes)
-        wrong = button(556, 62, "Problems", pack_sharing.show_problems)
-        begin = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.prepare_shown, self))
+        problems = button(556, 62, "Problems", pack_sharing.show_problems)
+        action = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.prepare_shown, self))
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
-        make = Button((632, 60, 124, 28), *begin, hint=hint)
+        ready = Button((632, 60, 124, 28), *action, hint=hint)
         link = Button((662, 525, 94, 24), "Copy the link", partial(pack_sharing.copy_the_link, self), size=10)
         link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", partial(pack_sharing.open_folder, self), size=10)
         folder.hint = "Where the zip is"
         share = [] if busy else [folder, link] if self.zipped else [link]
-        at_the_top: list[Widget] = [choice, undo, new, paste, unzip, about, opener, wrong, make]
+        at_the_top: list[Widget] = [choice, undo, new, paste, unzip, more, opener, problems, ready]
         first = [self.shelves, *at_the_top, tray_choice, self.tray, *share]
         episode = self.shelves.cells[0].episode
-        if episode and self._begins:
+        if episode and self._is_new:
             make_one = partial(pack_menus.ask_for_new_level, self, episode.number)
-            first.append(Button((196, self._below, 240, 44), "New level...", make_one, hint=pack_menus.MADE, size=14))
+            first.append(Button((196, self._top, 240, 44), "New level...", make_one, hint=pack_menus.MADE, size=14))
         return first
 
     @property
-    def _begins(self) -> bool:
+    def _is_new(self) -> bool:
         """Whether the pack has no level, and room for a large button."""
         return self.shelves.lines < 3 and self.pack is not None and not self.pack.levels
 
     @property
-    def _below(self) -> float:
+    def _top(self) -> float:
         """The upper edge of the texts below the shelves, px."""
         return 96 + HIGH * self.shelves.lines + 24 if self.pack else 396
 
@@ -158,8 +158,8 @@ class PackScreen(PackDesk):
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
         packer, before = self.packer, self._shown
-        self._shown = shown = _Shown(packer.busy, len(packer.obstacles), packer.text, self.app.notice)
-        if (shown.busy, shown.obstacles) != (before.busy, before.obstacles):
+        self._shown = shown = _ShownState(packer.is_busy, len(packer.obstacles), packer.text, self.app.notice)
+        if (shown.is_busy, shown.obstacles) != (before.is_busy, before.obstacles):
             self.enter()
         elif shown != before:
             # A new notice may be about a certificate that a search of the editor has found.
@@ -176,16 +176,16 @@ class PackScreen(PackDesk):
         texts = [packer.text or self.status.counts()]
         if packer.text and packer.path != self.path:
             texts = [f"{shown_text(packer.path.name)}: {packer.text}"]
-        elif packer.text and not packer.busy:
+        elif packer.text and not packer.is_busy:
             texts.append(self.status.counts())
         if self.shelves.lines < 4:
-            place = (36, self._below + 60 * self._begins, 560 if self.pack else 720, 90)
+            place = (36, self._top + 60 * self._is_new, 560 if self.pack else 720, 90)
             theme.paragraph(surface, step, place, 13, 20, align="centre")
-        elif not packer.busy:
+        elif not packer.is_busy:
             texts += step[:1]
-        foot = (36, 524, 720 if packer.busy else 516, 41)
+        foot = (36, 524, 720 if packer.is_busy else 516, 41)
         theme.paragraph(surface, texts, foot, 10, 13.5, colour=faint)
-        if packer.busy and packer.share is not None:
+        if packer.is_busy and packer.share is not None:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 
@@ -194,9 +194,9 @@ class PackScreen(PackDesk):
         pack, status, packer = self.pack, self.status, self.packer
         if pack is None or not pack.levels:
             return _NO_LEVELS if pack else _NO_PACK
-        if packer.busy and packer.path == self.path:
+        if packer.is_busy and packer.path == self.path:
             return ["It goes on when you leave this screen.", "Stop keeps what was found."]
-        if packer.fresh and self.zipped:
+        if packer.is_fresh and self.zipped:
             return ["Send the zip or the link: a link is pasted, a zip opened, in Levels > Packs."]
         if pack.received or not status.present:
             return []

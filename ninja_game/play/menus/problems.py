@@ -43,7 +43,7 @@ class ProblemsScreen(MenuScreen):
         self, app: App, find: Callable[[], Sequence[Problem] | None], news: Callable[[], bool] = lambda: False
     ) -> None:
         super().__init__(app)
-        self._find, self._news, self._looks = find, news, 0
+        self._find, self._news, self._waited_ms = find, news, 0
         self.problems: Sequence[Problem] = ()
         self.list = ListView((44, 66, 704, 10 * _ROW), _ROW, self._draw_row, lambda _: self._go(), opens=True)
         self.list.selected = lambda _: self._offer()
@@ -56,18 +56,20 @@ class ProblemsScreen(MenuScreen):
 
     def build(self) -> Sequence[Widget]:
         known = self._find()
-        self._looks, self.list.empty = (1, "Looking for problems") if known is None else (0, "There are no problems")
+        self._waited_ms, self.list.empty = (
+            (1, "Looking for problems") if known is None else (0, "There are no problems")
+        )
         self.problems = self.problems if known is None else known
         self.list.fill(self.problems)
         self._offer()
-        offered = (button for what, button in self.buttons.items() if any(getattr(p, what) for p in self.problems))
+        offered = (button for name, button in self.buttons.items() if any(getattr(row, name) for row in self.problems))
         return [self.list, *offered]
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
-        if self._looks:
-            before, self._looks = self._looks, self._looks + real_ms
-            self.redraw |= self._looks // 1000 > before // 1000
+        if self._waited_ms:
+            before, self._waited_ms = self._waited_ms, self._waited_ms + real_ms
+            self.redraw |= self._waited_ms // 1000 > before // 1000
         if self._news():
             self.enter()
             self.redraw = True
@@ -77,8 +79,8 @@ class ProblemsScreen(MenuScreen):
         return self.problems[self.list.index] if self.problems else Problem("")
 
     def _offer(self) -> None:
-        for what, button in self.buttons.items():
-            button.enabled = bool(getattr(self.selected, what)) and not self._looks
+        for name, button in self.buttons.items():
+            button.enabled = bool(getattr(self.selected, name)) and not self._waited_ms
         step = self.selected.step
         self.buttons["go"].text = step or "Go there"
         accept = self.buttons["accept"]
@@ -111,7 +113,7 @@ class ProblemsScreen(MenuScreen):
         accepted, steps = (sum(bool(getattr(other, kind)) for other in self.problems) for kind in ("accepted", "step"))
         count = counted(len(self.problems) - accepted - steps, "problem")
         count += f", {accepted} accepted" if accepted else ""
-        text = f"Looking for problems: {self._looks // 1000} s" if self._looks else count
+        text = f"Looking for problems: {self._waited_ms // 1000} s" if self._waited_ms else count
         theme.text(surface, text, 44, 538, size=10, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
@@ -124,7 +126,7 @@ class ProblemsScreen(MenuScreen):
         theme.paragraph(surface, [text], (x + 10, top, w - 20, y + h - top), 10, 13, colour=colour)
 
 
-def of_files(texts: Sequence[str]) -> list[Problem]:
+def file_problems(texts: Sequence[str]) -> list[Problem]:
     return [Problem(text, "Mend the file as the message says, or take it out of the folder.") for text in texts]
 
 

@@ -13,7 +13,7 @@ from ninja_game.ui.input.gamepad import pad_label
 from ninja_game.ui.input.keys import key_label
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import TEXT
+from ninja_game.ui.widgets import TEXT_SIZE
 
 
 def clash(first: str, second: str) -> bool:
@@ -156,9 +156,11 @@ class BindingTable(ListView):
     def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         _, y, _, h = area
         action = self.actions[index]
-        top = y + (h - TEXT) / 2
+        top = y + (h - TEXT_SIZE) / 2
         left, width = self._cells()
-        theme.text(surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=left - area[0] - 8)
+        theme.text(
+            surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT_SIZE, bold=focused, width=left - area[0] - 8
+        )
         inputs = self.inputs(action)
         for slot in range(self.slots):
             x = left + slot * width

@@ -174,8 +174,8 @@ class HelpScreen(MenuScreen):
         chosen = index == self.list.index
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        high = min(h, theme.common_height(self.topics, 11.5, w - 10))
-        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=high)
+        height = min(h, theme.common_height(self.topics, 11.5, w - 10))
+        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=height)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette

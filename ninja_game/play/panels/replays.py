@@ -244,7 +244,7 @@ def _looks(row: ReplayRow) -> tuple[object, ...]:
 def _may_have_runs(file: Path) -> bool:
     """Whether there are recordings in a file that cannot be read as such, as far as one can say."""
     with suppress(NinjaGameError, OSError):
-        return any(holds_recordings(text) for _, text in texts_of(file, named=False))
+        return any(holds_recordings(text) for _, text in texts_of(file, may_be_link=False))
     return True
 
 

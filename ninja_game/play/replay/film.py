@@ -144,16 +144,16 @@ class _Panel:
             covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * simulation.gold - self.time)
         else:
             covered = [hud.label(surface, self.title, self.letters)]
-        words, room = [self.title] if run.episode else [], 670 if self.film.keys else 744
+        words, width = [self.title] if run.episode else [], 670 if self.film.keys else 744
         if self.film.splits:
             words.append(f"{seconds_text(self.time)} s")
             texts = [text for tick, text in self.splits if tick < simulation.tick][-SHOWN_SPLITS:]
-            while len(texts) > 1 and hud.theme.width("; ".join([*words, *texts]), self.letters) > room:
+            while len(texts) > 1 and hud.theme.width("; ".join([*words, *texts]), self.letters) > width:
                 texts.pop(0)
             words += texts
         if self.view.context.settings.show_ghost:
             covered += draw_names(surface, hud.theme, self.ghosts, 1.0, 0.8 * self.letters)
-        covered += hud.foot(surface, hud.theme.fit("; ".join(words), room, self.letters), "", self.letters)
+        covered += hud.foot(surface, hud.theme.fit("; ".join(words), width, self.letters), "", self.letters)
         if self.film.keys:
             covered.append(hud.keys(surface, self.playback.keys_at(simulation.tick - 1), 704))
         for rect in covered:

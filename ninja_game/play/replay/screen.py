@@ -109,7 +109,7 @@ class ReplayScreen(Screen):
         return self.playback.simulation.tick
 
     @property
-    def settled(self) -> bool:
+    def is_settled(self) -> bool:
         """Whether the end of the run is known, and all runs have reached the sought moment."""
         return self._scout is None and self._way is None and not any(ghost.behind for ghost in self.ghosts)
 

@@ -92,7 +92,7 @@ class OtherRoutes:
         self._turn += 1
         settings, first = draw_settings(self._random), task.first
         joined = first + len(other) - there
-        self._searches.know_joined(task.inputs, first, other, there, joined + int(settings.max_delay))
+        self._searches.follow_joined(task.inputs, first, other, there, joined + int(settings.max_delay))
         seed = int(self._random.integers(1 << 30))
         run = self._searches.search(first, joined, settings, seed=seed, ticks=SPAN_TICKS, spend=spend)
         keys = (run or b"")[first : task.last].ljust(task.length, b"\0")

@@ -47,8 +47,8 @@ NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1
 
 
 @fast
-def create(level: TileMap, w: World, o: Object, p: Sequence[float]) -> None:
-    """Create an object at load; its kind and place are set already. ``p``: the nine values of its record."""
+def create(level: TileMap, w: World, o: Object, values: Sequence[float]) -> None:
+    """Create an object at load; its kind and place are set already. ``values``: the nine values of its record."""
     kind = o.kind
     if kind == GOLD:
         create_gold(w, o)
@@ -57,23 +57,23 @@ def create(level: TileMap, w: World, o: Object, p: Sequence[float]) -> None:
     elif kind == BOUNCE_BLOCK:
         create_block(w, o)
     elif kind == LAUNCH_PAD:
-        create_pad(w, o, p)
+        create_pad(w, o, values)
     elif kind == ONE_WAY:
-        create_one_way(w, o, p)
+        create_one_way(w, o, values)
     elif kind == EXIT:
-        create_exit(w, o, p)
+        create_exit(w, o, values)
     elif kind == TURRET:
         create_turret(w, o)
     elif kind == LAUNCHER:
         create_launcher(w, o)
     elif kind == DOOR:
-        create_door(w, o, p)
+        create_door(w, o, values)
     elif kind == THWUMP:
-        create_thwump(level, w, o, p[2])
+        create_thwump(level, w, o, values[2])
     elif kind == FLOOR_GUARD:
         create_guard(level, w, o)
     elif kind == DRONE:
-        create_drone(w, o, p)
+        create_drone(w, o, values)
 
 
 @fast

@@ -30,10 +30,10 @@ from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
 
 
 @fast
-def create_door(w: World, o: Door, p: Sequence[float]) -> None:
+def create_door(w: World, o: Door, values: Sequence[float]) -> None:
     """Look up the two edges, store their states, enter the grid, then close (a trap door stays open)."""
-    vertical, trap, locked = p[2], p[3], p[6]
-    column, row, column_offset, row_offset = p[4], p[5], p[7], p[8]
+    vertical, trap, locked = values[2], values[3], values[6]
+    column, row, column_offset, row_offset = values[4], values[5], values[7], values[8]
     cell_1 = cell_index(column + column_offset, row + row_offset)
     cell_2 = 0
     if cell_1:

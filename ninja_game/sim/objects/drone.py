@@ -47,9 +47,9 @@ FIRST_LIST, SECOND_LIST = WANDER_CW, WANDER_CCW
 
 
 @fast
-def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
+def create_drone(w: World, o: Drone, values: Sequence[float]) -> None:
     """Register it at the place of the record, then move it to that cell's centre; the first update chooses a goal."""
-    movement_number, seeker, weapon, direction = p[2], p[3], p[4], p[5]
+    movement_number, seeker, weapon, direction = values[2], values[3], values[4], values[5]
     cell = cell_at(o.x, o.y)
     link(w, o, cell)
     o.in_grid = 1

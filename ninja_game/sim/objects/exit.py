@@ -16,7 +16,7 @@ from ninja_game.sim.schema.world_fields import World
 
 
 @fast
-def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
+def create_exit(w: World, o: Exit, values: Sequence[float]) -> None:
     """Enter only the exit's switch into the grid. The switch has no id; its slot is behind those of the ids."""
     o.partner = w.slots_used
     w.slots_used += 1
@@ -24,8 +24,8 @@ def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
     switch.slot = o.partner
     switch.kind = SWITCH
     switch.id = -1
-    switch.x = p[2]
-    switch.y = p[3]
+    switch.x = values[2]
+    switch.y = values[3]
     switch.partner = o.slot
     grid_insert(w, switch)
 

@@ -16,7 +16,7 @@ from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
 
 @fast
-def empty_for_guard(level: TileMap, cell: int) -> bool:
+def is_empty_for_guard(level: TileMap, cell: int) -> bool:
     """Whether a floor guard's scan passes a cell: tile ids above 0 stop it, a malformed id below 0 does not."""
     return level.tiles[cell] == 0 or level.tiles[cell] == UNDEFINED_ID
 
@@ -35,22 +35,22 @@ def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
     start_update(w, o)
     o.facing = 1.0
     o.y = CENTRE_Y[cell] + HALF - GUARD_RADIUS
-    k = cell + 1
-    while empty_for_guard(level, k) and w.edges[4 * k + DOWN] == SOLID:
-        k += 1
-    o.high_x = CENTRE_X[k] - HALF - GUARD_RADIUS
-    k = cell
-    while empty_for_guard(level, k) and w.edges[4 * k + DOWN] == SOLID:
-        k -= 1
-    o.low_x = CENTRE_X[k] + HALF + GUARD_RADIUS
-    k = cell + 1
-    while empty_for_guard(level, k):
-        k += 1
-    o.high = COLUMN[k - 1]
-    k = cell - 1
-    while empty_for_guard(level, k):
-        k -= 1
-    o.low = COLUMN[k + 1]
+    scan = cell + 1
+    while is_empty_for_guard(level, scan) and w.edges[4 * scan + DOWN] == SOLID:
+        scan += 1
+    o.high_x = CENTRE_X[scan] - HALF - GUARD_RADIUS
+    scan = cell
+    while is_empty_for_guard(level, scan) and w.edges[4 * scan + DOWN] == SOLID:
+        scan -= 1
+    o.low_x = CENTRE_X[scan] + HALF + GUARD_RADIUS
+    scan = cell + 1
+    while is_empty_for_guard(level, scan):
+        scan += 1
+    o.high = COLUMN[scan - 1]
+    scan = cell - 1
+    while is_empty_for_guard(level, scan):
+        scan -= 1
+    o.low = COLUMN[scan + 1]
 
 
 @fast

@@ -15,10 +15,10 @@ from ninja_game.sim.states import FALLING, enter_state
 
 
 @fast
-def create_pad(w: World, o: LaunchPad, p: Sequence[float]) -> None:
+def create_pad(w: World, o: LaunchPad, values: Sequence[float]) -> None:
     """Take the normal of the record and enter the grid."""
-    o.face_x = p[2]
-    o.face_y = p[3]
+    o.face_x = values[2]
+    o.face_y = values[3]
     grid_insert(w, o)
 
 

@@ -14,12 +14,12 @@ from ninja_game.sim.schema.world_fields import World
 
 
 @fast
-def create_one_way(w: World, o: OneWay, p: Sequence[float]) -> None:
+def create_one_way(w: World, o: OneWay, values: Sequence[float]) -> None:
     """Face the direction of the record; a direction that does not exist counts as down."""
     o.face_x = 0.0
     o.face_y = 1.0
     for direction in range(4):
-        if p[2] == direction:
+        if values[2] == direction:
             o.face_x = UNIT_X[direction]
             o.face_y = UNIT_Y[direction]
     grid_insert(w, o)

@@ -26,7 +26,7 @@ from ninja_game.runs.compare import nearest_state
 from ninja_game.runs.run import run_level
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import runs_of_level, same_level, same_place, track_of
-from ninja_game.tas.timeline import Timeline, apart_text
+from ninja_game.tas.timeline import Timeline, difference_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import OtherRun, TasEditor
 from ninja_game.tas_editor.tabs.tab import EntryField
@@ -119,7 +119,7 @@ class OtherRuns:
         if tick:
             beside = Timeline(timeline.level, other.track.inputs[:there], body=timeline.body, memory=timeline.memory)
             beside.ensure(there - 1)
-            gap = apart_text(timeline.world(tick - 1), beside.world(there - 1))
+            gap = difference_text(timeline.world(tick - 1), beside.world(there - 1))
         if editor.edit_selected(make, other.made):
             timeline.simulate(len(timeline))
             end, outcome = timeline.end

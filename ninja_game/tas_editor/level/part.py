@@ -190,7 +190,7 @@ class LevelPart(TasPart):
     def _follow_ninja(self, size: tuple[int, int], fraction: float) -> None:
         """Scroll to the ninja after it has moved, unless the mouse drags."""
         place = self.picture.place(fraction)
-        if place != self._followed and not self._pointer.busy:
+        if place != self._followed and not self._pointer.is_busy:
             self.picture.camera.follow(size, *place)
         self._followed = place
 
@@ -247,9 +247,9 @@ class LevelPart(TasPart):
         if self.picture.camera.zoom > 1:
             speed = f"zoom {self.picture.camera.zoom:.1f}, {speed}"
         right = theme.text(surface, speed, x + w - 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, align="right")
-        room = right.left / theme.canvas.scale - x - 12
+        width = right.left / theme.canvas.scale - x - 12
         theme.text(
-            surface, text, x + 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, bold=take_over.on, width=room
+            surface, text, x + 6, y + 1, size=paths.LETTERS, colour=palette.on_tile, bold=take_over.on, width=width
         )
 
 
@@ -262,7 +262,7 @@ class LevelPointer:
         self._button = 0
 
     @property
-    def busy(self) -> bool:
+    def is_busy(self) -> bool:
         """Whether it drags along the run or moves the picture."""
         return self._goes or self._camera.held is not None
 

@@ -7,7 +7,7 @@ import pygame
 from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.sim.rules import TICK_MS
-from ninja_game.tas.timeline import AFTERMATH
+from ninja_game.tas.timeline import TICKS_BEHIND_END
 from ninja_game.tas_editor.commands import BY_PAD, TAS_COMMANDS
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.level.picture import LevelPicture
@@ -164,7 +164,7 @@ class TakeOver:
                 return
         session.timeline.ensure(tick)
         self._go(tick, audible=True)
-        if self._ended(tick, AFTERMATH) or tick >= editor.last_tick:
+        if self._ended(tick, TICKS_BEHIND_END) or tick >= editor.last_tick:
             self.end()
 
     def update(self, real_ms: int) -> None:

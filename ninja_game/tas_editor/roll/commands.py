@@ -18,7 +18,7 @@ from ninja_game.tas.tracks import InputTrack, first_different_index, marker_name
 from ninja_game.tas_editor.editor import Span, TasEditor
 from ninja_game.tas_editor.roll.facts import compared_run, differing_ticks
 
-_BEHIND = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
+_NOTHING_HERE = "Nothing here: the run ends earlier"  # where nothing can be copied or taken out
 
 
 class RollCommands:
@@ -59,8 +59,8 @@ class RollCommands:
             "first": lambda: 0, "last": self._last,
         }  # fmt: skip
 
-    def _move(self, to: Callable[[], int], *, select: bool = False) -> None:
-        self._editor.go(to(), select=select)
+    def _move(self, target: Callable[[], int], *, select: bool = False) -> None:
+        self._editor.go(target(), select=select)
 
     def _last(self) -> int:
         """The tick of exit or death; from there or behind it the last one."""
@@ -100,7 +100,7 @@ class RollCommands:
 
     # --- changing ---
 
-    def _filled(self) -> Span:
+    def _selected_ticks(self) -> Span:
         first, last = self._editor.selection
         return first, min(last, len(self._editor.track))
 
@@ -111,9 +111,9 @@ class RollCommands:
         self._editor.edit_selected(lambda track: track.with_key(first, last, key, down=down))
 
     def clear(self) -> None:
-        first, last = self._filled()
+        first, last = self._selected_ticks()
         if first >= last:
-            self._editor.app.notify(_BEHIND)
+            self._editor.app.notify(_NOTHING_HERE)
         else:
             self._editor.edit_selected(lambda track: track.replaced(first, last, bytes(last - first)))
 
@@ -123,9 +123,9 @@ class RollCommands:
         self._editor.edit_selected(lambda track: track.replaced(first, first, bytes(last - first)))
 
     def remove(self) -> None:
-        first, last = self._filled()
+        first, last = self._selected_ticks()
         if first >= last:
-            self._editor.app.notify(_BEHIND)
+            self._editor.app.notify(_NOTHING_HERE)
         elif self._editor.edit_selected(lambda track: track.replaced(first, last, b"")):
             self._editor.go(first)
 
@@ -165,7 +165,7 @@ class RollCommands:
 
     def copy(self) -> None:
         """Copy the selected ticks as text of our notation, with their markers."""
-        first, last = self._filled()
+        first, last = self._selected_ticks()
         markers = [Marker(tick - first, name) for tick, name in self._editor.track.markers if first <= tick < last]
         text = "\n".join(write_inputs(self._editor.track.inputs[first:last], markers))
         if text:
@@ -173,11 +173,11 @@ class RollCommands:
             title = self._editor.session.origin.name or "inputs"
             copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", notice=notice)
         else:
-            self._editor.app.notify(_BEHIND)
+            self._editor.app.notify(_NOTHING_HERE)
 
     def cut(self) -> None:
         self.copy()
-        first, last = self._filled()
+        first, last = self._selected_ticks()
         if first < last:
             self.remove()
 
@@ -195,30 +195,30 @@ class RollCommands:
 
     def name_tick(self) -> None:
         editor, tick = self._editor, self._editor.cursor
-        name = next((name for at, name in editor.track.markers if at == tick), "")
+        name = next((name for marked, name in editor.track.markers if marked == tick), "")
         named = partial(self._name, tick)
         ask_text(editor.app, f"Tick {tick}", "Name or comment (empty removes it)", name, "Name it", named)
 
     def _name(self, tick: int, text: str) -> None:
-        moved = [at for at, name in self._editor.track.markers if name == marker_name(text) and at != tick]
+        earlier = [at for at, name in self._editor.track.markers if name == marker_name(text) and at != tick]
 
         def named(track: InputTrack) -> InputTrack:
             if text.strip() and tick > len(track):
                 raise ArgumentError(f"the run has {len(track)} ticks: give this one a key first")
             return track.named(tick, text)
 
-        if self._editor.edit(named) and moved:
-            self._editor.app.notify(f"It is moved here from tick {moved[0]}: each name stands once")
+        if self._editor.edit(named) and earlier:
+            self._editor.app.notify(f"It is moved here from tick {earlier[0]}: each name stands once")
 
 
 def _with_pasted(track: InputTrack, first: int, pasted: Inputs, *, between: bool) -> InputTrack:
     """An input track with pasted ticks; markers in it keep their ticks."""
     last = first if between else first + len(pasted.keys)
-    made = track.replaced(first, last, pasted.keys)
+    result = track.replaced(first, last, pasted.keys)
     for tick, name in pasted.markers:
-        if all(name != marker.name and first + tick != marker.tick for marker in made.markers):
-            made = made.named(first + tick, name)
-    return made
+        if all(name != marker.name and first + tick != marker.tick for marker in result.markers):
+            result = result.named(first + tick, name)
+    return result
 
 
 def first_change(before: InputTrack, after: InputTrack) -> int:

@@ -158,7 +158,7 @@ class Digits:
 
     def _characters(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
         render = self.theme.lettering.rendered
-        return {char: (render(char, self._size, colour), wide) for char, wide in self._advance.items()}
+        return {char: (render(char, self._size, colour), width) for char, width in self._advance.items()}
 
     def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
         """Blits (picture, place) of a number that ends left of ``right``, px."""
@@ -167,8 +167,8 @@ class Digits:
             self._pictures[key] = self._characters(colour)
         characters, x, made = self._pictures[key], right + 0.5, []
         for character in reversed(text):
-            picture, wide = characters[character]
-            x -= wide
+            picture, width = characters[character]
+            x -= width
             made.append((picture, (int(x), y)))
         return made
 
@@ -284,12 +284,12 @@ class RowSheet:
     def _difference(self, row: RowFacts, place: _Place, left: int, y: int) -> None:
         """At the right of a key's cell: a bar if the key is down only in the other run, hollow if only in ours."""
         px, height, fill = self.theme.canvas.px, self.layout.row, self._picture.fill
-        wide = px(4)
-        x = left + place.width - wide
-        fill(self.mark, (x, y, wide, height))
+        width = px(4)
+        x = left + place.width - width
+        fill(self.mark, (x, y, width, height))
         if row.keys & place.column.key:
             edge = max(1, px(1))
-            fill(self.theme.palette.panel, (x + edge, y, wide - 2 * edge, height))
+            fill(self.theme.palette.panel, (x + edge, y, width - 2 * edge, height))
 
     def _value(self, values: Values, place: _Place, left: int, y: int, ink: pygame.Color) -> None:
         name, theme = place.column.name, self.theme

@@ -135,8 +135,8 @@ class BranchesTab(Tab):
             tip = left - 4
             theme.canvas.polygon(surface, palette.accent, [(tip - 6, y + 4), (tip - 6, y + h - 4), (tip, y + h / 2)])
         changed = " (changed since)" if current and branch.track.inputs != self.editor.track.inputs else ""
-        room = right - _COLUMNS[0] - left - 6
-        theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=room)
+        width = right - _COLUMNS[0] - left - 6
+        theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=width)
         cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))
         for at, text in zip(_COLUMNS, cells, strict=False):
             theme.text(surface, text, right - at, y + 3, size=SMALL)

@@ -41,10 +41,10 @@ class LeadTab(Tab):
         super().__init__(editor)
         self._opened = editor.track
         self._asked: Pair | None = None
-        self._still_ms = 0
+        self._unchanged_ms = 0
         self._job: NewestJob[_Job, tuple[Pair, LeadTable | str]] = NewestJob(compared_pair)
         self._choice = Choice(
-            UNPLACED, "", self._options(), self._against, self._put, hint="The run that this one is compared to"
+            UNPLACED, "", self._options(), self._theirs, self._put, hint="The run that this one is compared to"
         )
         self.list = Rows(self._draw_row, self._go, keeps=False, hint="A click puts the cursor there")
         self.widgets = [self._choice, self.list]
@@ -64,7 +64,7 @@ class LeadTab(Tab):
             names.setdefault(track, name)
         return [(name, track) for track, name in names.items()]
 
-    def _against(self) -> InputTrack:
+    def _theirs(self) -> InputTrack:
         """The chosen run; by default the other one, or this one as it was opened."""
         editor = self.editor
         if editor.against is not None:
@@ -76,20 +76,20 @@ class LeadTab(Tab):
 
     @property
     def _pair(self) -> Pair:
-        return self.editor.track, self._against()
+        return self.editor.track, self._theirs()
 
     def update(self, real_ms: int) -> None:
         if self.editor.tab != self.name and not self.editor.others:
             return
         self._choice.options = self._options()
-        if self._against() not in {track for _, track in self._choice.options}:
+        if self._theirs() not in {track for _, track in self._choice.options}:
             self.editor.against = None
         pair = self._pair
         if pair != self._asked:
-            self._asked, self._still_ms = pair, 0
-        elif self._still_ms < PAUSE_MS:
-            self._still_ms += real_ms
-            if self._still_ms >= PAUSE_MS:
+            self._asked, self._unchanged_ms = pair, 0
+        elif self._unchanged_ms < PAUSE_MS:
+            self._unchanged_ms += real_ms
+            if self._unchanged_ms >= PAUSE_MS:
                 session = self.editor.session
                 ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
                 self._job.ask((pair, ours, theirs, pair[0].markers))
@@ -132,7 +132,7 @@ class LeadTab(Tab):
         return "; ".join(parts)
 
     def render_key(self) -> tuple[object, ...]:
-        return self._choice.options, self._against(), self.summary, id(self.table), self.editor.cursor, self.list.over
+        return self._choice.options, self._theirs(), self.summary, id(self.table), self.editor.cursor, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -62,9 +62,9 @@ class PresetMenu(Menu):
         return WIDTH - w - 10, y, w, h
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), high = self._box, self.row_height
+        (x, y, w, _), height = self._box, self.row_height
         return [
-            Button((x + 12, y + 48 + high * k, w - 24, high - 4), text, action, size=12, detail=explanation)
+            Button((x + 12, y + 48 + height * k, w - 24, height - 4), text, action, size=12, detail=explanation)
             for k, (text, action, explanation) in enumerate(self.rows())
         ]
 

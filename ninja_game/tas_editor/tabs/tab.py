@@ -16,7 +16,7 @@ from ninja_game.tas_editor.editor import OtherRun, TasEditor, TasPart
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import Button, following
+from ninja_game.ui.widgets import Button, next_option
 from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
 
 SMALL = 9.0  # size of the text in lists and buttons, px
@@ -113,7 +113,7 @@ class TabStrip(TasPart):
 
     def commands(self) -> Commands:
         names = [tab.name for tab in self.tabs]
-        return {"next_tab": lambda: setattr(self.editor, "tab", following(names, self.editor.tab))}
+        return {"next_tab": lambda: setattr(self.editor, "tab", next_option(names, self.editor.tab))}
 
     @property
     def shown(self) -> Tab:

@@ -38,18 +38,18 @@ def starts_of(track: InputTrack, unfolded: Span | None = None, kept: int = 0) ->
     inputs = np.frombuffer(track.inputs, np.uint8)
     odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
     # The keys that are down; 16 and 8 mark a jump that no keyboard makes, and its press.
-    looks = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
-    named = [tick for tick, _ in track.markers]
-    starts = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(looks[1:] != looks[:-1]) + 1), *named, len(inputs)])
+    keys = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
+    marked = [tick for tick, _ in track.markers]
+    starts = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(keys[1:] != keys[:-1]) + 1), *marked, len(inputs)])
     if unfolded is None:
         return starts
     inside = (starts >= unfolded[0]) & (starts <= unfolded[1])
-    return starts[inside | np.isin(starts, [0, *named, len(inputs)])]
+    return starts[inside | np.isin(starts, [0, *marked, len(inputs)])]
 
 
 def section_at(track: InputTrack, tick: int) -> Span:
     """The ticks from a marker, or the start, to the next marker, or the end, around a tick."""
-    bounds = sorted({0, *(at for at, _ in track.markers), len(track)})
+    bounds = sorted({0, *(marked for marked, _ in track.markers), len(track)})
     number = max(0, min(bisect_right(bounds, tick), len(bounds) - 1) - 1)
     return bounds[number], bounds[min(number + 1, len(bounds) - 1)]
 
@@ -70,7 +70,7 @@ def text_of(track: InputTrack, first: int, last: int, *, celeste: bool) -> str:
     return f"{name} {frames}".lstrip()
 
 
-def _read(text: str) -> Inputs:
+def _parsed(text: str) -> Inputs:
     words = _WORD.findall(text)
     return inputs_of_text("\n".join(words), "") if words else Inputs(b"")
 
@@ -81,8 +81,8 @@ def _named_in_line(typed: Inputs) -> Inputs:
     if not typed.keys or last is None or last.tick < len(typed.keys):
         return typed
     line = int(starts_of(InputTrack(typed.keys, typed.markers))[-2])
-    named = any(marker.tick == line for marker in typed.markers)
-    return typed if named else typed._replace(markers=(*before, last._replace(tick=line)))
+    has_name = any(marker.tick == line for marker in typed.markers)
+    return typed if has_name else typed._replace(markers=(*before, last._replace(tick=line)))
 
 
 class TextTab(Tab):
@@ -95,16 +95,16 @@ class TextTab(Tab):
         self.celeste = self.folded = False
         self._track = InputTrack(b"")
         self._unfolded: Span | None = None
-        self._typed_up_to = -1
+        self._typed_until = -1
         self._clicked = False
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
         self._lines: Span | None = None  #: the ticks of several selected lines, as long as no other ones are
-        self._begun: Span = (0, 1)  #: what was selected before them
+        self._anchor: Span = (0, 1)  #: what was selected before them
         self.list = Rows(self._draw_row, self._choose, hint="A click selects a line, with Shift those between")
         hint = "R*30 RJ*10 or 30,R,J, several; #name: a marker; # any text: a comment; nothing: no such ticks. Enter"
         self.field = EntryField("the line of the cursor's tick", self.put, longest=MAX_LINE, hint=hint, step=self._step)
-        self.notation = Button(UNPLACED, "R*30", self._turn, hint="A click: the other notation", size=SMALL)
+        self.notation = Button(UNPLACED, "R*30", self._switch_notation, hint="A click: the other notation", size=SMALL)
         hint = "Only the lines from the marker before the cursor to the next one"
         self.fold = Button(UNPLACED, "Fold", self._fold, hint=hint, size=SMALL)
         self.widgets: list[Rows | EntryField | Button] = [self.field, self.fold, self.notation, self.list]
@@ -122,8 +122,8 @@ class TextTab(Tab):
             self._seen, self._track = seen, self.editor.track
             self._unfolded = section_at(self._track, self.editor.cursor) if self.folded else None
             # Typing continues behind the last typed line, even if the keys there are equal.
-            kept = self.editor.cursor if self.editor.cursor == self._typed_up_to else 0
-            self._typed_up_to = kept or -1
+            kept = self.editor.cursor if self.editor.cursor == self._typed_until else 0
+            self._typed_until = kept or -1
             self.starts = starts_of(self._track, self._unfolded, kept)
             self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
             self.list.fill(range(len(self.starts)))
@@ -160,11 +160,11 @@ class TextTab(Tab):
             return f"{name}: {counted(last - first, 'tick')}"
         return text_of(self._track, first, last, celeste=self.celeste)
 
-    def _step(self, by: int) -> None:
+    def _step(self, direction: int) -> None:
         """Go to the line above or below; typed text is put in before."""
         first, last = self.span(self.list.index)
         if self.field.text.strip() == self._shown_text or self.put():
-            self.editor.go(first - 1 if by < 0 else max(last, self.editor.cursor))
+            self.editor.go(first - 1 if direction < 0 else max(last, self.editor.cursor))
 
     def put(self) -> bool:
         """Replace the lines by the text of the field, and go to the next one.
@@ -181,12 +181,12 @@ class TextTab(Tab):
         text = text[: commented.start()] if commented else text
         try:
             try:
-                typed = _read(text)
+                typed = _parsed(text)
             except FormatError:
                 # A text of several words, up to the line's end, is the name of the ticks that follow.
                 if (named := _NAMED_END.sub(r'#"\1"', text)) == text:
                     raise
-                typed = _read(named)
+                typed = _parsed(named)
         except FormatError as error:
             place = f"word {error.line}: " if error.line else ""
             error.line = error.column = 0
@@ -199,10 +199,10 @@ class TextTab(Tab):
         def changed(track: InputTrack) -> InputTrack:
             left = first + bool(typed.keys and not typed.markers)
             others = tuple(marker for marker in track.markers if not left <= marker.tick < max(last, first + 1))
-            made = InputTrack(track.inputs, others).replaced(first, last, typed.keys)
+            result = InputTrack(track.inputs, others).replaced(first, last, typed.keys)
             for tick, name in typed.markers:
-                made = made.named(first + tick, name)
-            return made
+                result = result.named(first + tick, name)
+            return result
 
         if done := self.editor.edit_selected(changed):
             self._go_on(first + len(typed.keys))
@@ -211,15 +211,15 @@ class TextTab(Tab):
     def _go_on(self, tick: int) -> None:
         """Go to the line behind the typed one; it is shown before the next key, which may come at once."""
         self.editor.go(tick)
-        self._typed_up_to = tick
+        self._typed_until = tick
         self.update(0)
 
     def _choose(self, index: int) -> None:
         first, last = self.span(index)
         self._clicked = True
         if pygame.key.get_mods() & pygame.KMOD_SHIFT:
-            self._begun = self._begun if self._lines else self.editor.selection
-            first, last = min(first, self._begun[0]), min(max(last, self._begun[1]), len(self._track))
+            self._anchor = self._anchor if self._lines else self.editor.selection
+            first, last = min(first, self._anchor[0]), min(max(last, self._anchor[1]), len(self._track))
             first = int(self.starts[np.searchsorted(self.starts, first, "right") - 1])
             last = int(self.starts[np.searchsorted(self.starts, last)])
             self.editor.select(first, last)
@@ -236,7 +236,7 @@ class TextTab(Tab):
         self.folded = not self.folded
         self.fold.text = "Unfold" if self.folded else "Fold"
 
-    def _turn(self) -> None:
+    def _switch_notation(self) -> None:
         self.celeste = not self.celeste
         self.notation.text = "30,R,J" if self.celeste else "R*30"
 
@@ -245,8 +245,8 @@ class TextTab(Tab):
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, chosen: bool) -> None:
         x, y, w, _ = area
-        number, room = str(self.starts[index]), w - 70
+        number, width = str(self.starts[index]), w - 70
         if self._lines and self._lines[0] <= self.starts[index] < self._lines[1]:
             theme.canvas.frame_rect(surface, theme.palette.accent, *area, 0.75, 2)
         theme.text(surface, number, x + 44, y + 3, size=SMALL, colour=theme.palette.faint, align="right")
-        theme.text(surface, self.text(index) or "(the end)", x + 56, y + 3, size=SMALL, bold=chosen, width=room)
+        theme.text(surface, self.text(index) or "(the end)", x + 56, y + 3, size=SMALL, bold=chosen, width=width)

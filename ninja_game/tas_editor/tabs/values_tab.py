@@ -20,7 +20,7 @@ from ninja_game.tas.timeline import Watch, parse_watch
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Palette, Theme, inside, run_colour
+from ninja_game.ui.theme import Area, Palette, Theme, contains_point, run_colour
 from ninja_game.ui.widgets import Button, Widget
 
 MIN_SHOWN_TICKS = 10.0  # least ticks shown
@@ -100,9 +100,9 @@ def draw_lane(
         return
     low, high = float(known.min()), float(known.max())
     middle, span = (low + high) / 2, max(high - low, 1e-9)
-    top, room = y + 3, h - 6
+    top, height = y + 3, h - 6
     if low < 0 < high:
-        zero = top + room * (high / span)
+        zero = top + height * (high / span)
         canvas.fill_rect(surface, palette.panel_edge, x, zero, w, 0.5)
     ticks = np.arange(start, start + len(shown), dtype=np.float64)
     most = max(2, canvas.px(w))
@@ -113,7 +113,7 @@ def draw_lane(
     px = left + (ticks - window.first) * (window.width * canvas.scale / (window.last - window.first))
     lane = canvas.rect(*area)
     inner = surface.subsurface(lane.clip(surface.get_rect()))
-    points = np.column_stack([px, above + share * (room * canvas.scale)]) - inner.get_offset()
+    points = np.column_stack([px, above + share * (height * canvas.scale)]) - inner.get_offset()
     _draw_line(inner, colour, points, canvas.px(1))
     bounds = ((high, y + 1), (low, y + h - 9)) if high > low else ((middle, y + h / 2 - 4),)
     for value, at in bounds:
@@ -369,13 +369,13 @@ class ValuesTab(Tab):
             theme.canvas.frame_rect(surface, colour, *sign, 1, 2)
         value = shown_value(watched, self.editor.cursor)
         right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
-        room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
-        theme.text(surface, watched.watch.text, x + 16, y + 3, size=SMALL, width=room)
+        width = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
+        theme.text(surface, watched.watch.text, x + 16, y + 3, size=SMALL, width=width)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
         left, top, w, h = self._plot
-        in_plot = inside((left, top, w, h + 18), x, y)
+        in_plot = contains_point((left, top, w, h + 18), x, y)
         if event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
             if not self._dragged:
                 self.editor.go(round(self.window.tick(x)), select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))

@@ -132,31 +132,33 @@ class Effects:
 # --- reactions to events ---
 
 
-def _jumped(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _jumped(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     # The event comes after the jump's displacement; the dust stays at the place before.
     x, y = event.x - event.dx * 11, event.y - event.dy * 12 + (3 if event.dy else 0)
-    e.puffs(x, y, event.dx, event.dy, 20, 7)
+    effects.puffs(x, y, event.dx, event.dy, 20, 7)
 
 
-def _landed(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _landed(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     impact = hypot(event.dx, event.dy)
     x, y = event.x - n.floor_x * 10, event.y - n.floor_y * 10
-    e.puffs(x, y, n.floor_x, n.floor_y, 40, 4 + 1.6 * impact, count=2 + min(8, round(impact)))
+    effects.puffs(x, y, n.floor_x, n.floor_y, 40, 4 + 1.6 * impact, count=2 + min(8, round(impact)))
 
 
-def _won(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _won(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     """Light spreads behind the ninja, sparks before it, and papers fly."""
     for k in range(3):
-        e.add("halo", event.x, event.y, life=40 + 14 * k, size=1.0 + 0.35 * k, rear=True)
-    e.spread("spark", event.x, event.y, 12, 60, life=40)
+        effects.add("halo", event.x, event.y, life=40 + 14 * k, size=1.0 + 0.35 * k, rear=True)
+    effects.spread("spark", event.x, event.y, 12, 60, life=40)
     for _ in range(48):
-        angle = e.rng.uniform(-pi, 0)
-        x, y = _free_way(level, world, event.x, event.y, angle, e.rng.uniform(40, 190))
+        angle = effects.rng.uniform(-pi, 0)
+        x, y = _free_way(level, world, event.x, event.y, angle, effects.rng.uniform(40, 190))
         _, ground = _free_way(level, world, x, y, pi / 2, CONFETTI_FALL)
-        life, variant = e.rng.uniform(130, 220) / 3, e.rng.randrange(6)
+        life, variant = effects.rng.uniform(130, 220) / 3, effects.rng.randrange(6)
         flight = x - event.x, y - event.y
-        e.particles.add(Particle("confetti", event.x, event.y, *flight, life, 1.0, variant, e.now, ground - y))
+        effects.particles.add(
+            Particle("confetti", event.x, event.y, *flight, life, 1.0, variant, effects.now, ground - y)
+        )
 
 
 def _free_way(level: TileMap, world: World, x: float, y: float, angle: float, far: float) -> tuple[float, float]:
@@ -167,28 +169,28 @@ def _free_way(level: TileMap, world: World, x: float, y: float, angle: float, fa
     return x + dx * way, y + dy * way
 
 
-def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _died(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     if event.cause == states.ELECTRIC:
         for _ in range(6):
-            angle = e.rng.uniform(0, 2 * pi)
-            e.add("zap", event.x, event.y, 34 * cos(angle), 34 * sin(angle), life=e.rng.uniform(12, 24))
-        e.spread("bolt", event.x, event.y, 8, 40, life=22)
+            angle = effects.rng.uniform(0, 2 * pi)
+            effects.add("zap", event.x, event.y, 34 * cos(angle), 34 * sin(angle), life=effects.rng.uniform(12, 24))
+        effects.spread("bolt", event.x, event.y, 8, 40, life=22)
     elif event.cause == states.EXPLOSIVE:
-        e.spread("spark", n.x, n.y, 8, 42, life=26)
+        effects.spread("spark", n.x, n.y, 8, 42, life=26)
     elif event.cause == states.FALL:
-        e.puffs(n.x, n.y + 9, 0, -1, 40, 14)
-    e.blood(event.x, event.y, event.dx, event.dy, e.rng.randint(8, 14))
+        effects.puffs(n.x, n.y + 9, 0, -1, 40, 14)
+    effects.blood(event.x, event.y, event.dx, event.dy, effects.rng.randint(8, 14))
 
 
-def _launched(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _launched(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     length = hypot(event.dx, event.dy) or 1.0
-    e.puffs(event.x, event.y + 6, event.dx / length, event.dy / length, 55, 9)
+    effects.puffs(event.x, event.y + 6, event.dx / length, event.dy / length, 55, 9)
 
 
-def _thud(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _thud(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     x, y = event.x + event.dx * 9, event.y + event.dy * 9
-    e.puffs(x, y, -event.dx, -event.dy, 25, 9)
+    effects.puffs(x, y, -event.dx, -event.dy, 25, 9)
 
 
 def _line_of_fire(level: TileMap, world: World, event: Event) -> tuple[float, float]:
@@ -197,18 +199,18 @@ def _line_of_fire(level: TileMap, world: World, event: Event) -> tuple[float, fl
     return (x, y) if hit else (event.x + 30 * event.dx, event.y + 30 * event.dy)
 
 
-def _turret_fired(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _turret_fired(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     x, y = _line_of_fire(level, world, event)
-    e.add("shot", event.x, event.y, x - event.x, y - event.y, life=14)
-    e.add("muzzle", event.x, event.y, event.dx, event.dy, life=7)
-    e.spread("debris", x, y, 5, 18, life=16)
+    effects.add("shot", event.x, event.y, x - event.x, y - event.y, life=14)
+    effects.add("muzzle", event.x, event.y, event.dx, event.dy, life=7)
+    effects.spread("debris", x, y, 5, 18, life=16)
 
 
-def _bullet(e: Effects, level: TileMap, world: World, event: Event) -> None:
+def _bullet(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     x, y = _line_of_fire(level, world, event)
-    e.add("bullet", event.x + 12 * event.dx, event.y + 12 * event.dy, x - event.x, y - event.y, life=8)
-    e.add("muzzle", event.x + 11 * event.dx, event.y + 11 * event.dy, event.dx, event.dy, life=8)
-    e.spread("debris", x, y, 3, 14, life=13)
+    effects.add("bullet", event.x + 12 * event.dx, event.y + 12 * event.dy, x - event.x, y - event.y, life=8)
+    effects.add("muzzle", event.x + 11 * event.dx, event.y + 11 * event.dy, event.dx, event.dy, life=8)
+    effects.spread("debris", x, y, 3, 14, life=13)
 
 
 REACTIONS: dict[int, Callable[[Effects, TileMap, World, Event], None]] = {

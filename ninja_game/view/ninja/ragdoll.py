@@ -121,19 +121,19 @@ class Ragdoll:
 
     def step(self, level: TileMap, world: World) -> None:
         """One tick: move, pull together, push out of solid shapes."""
-        for p in self.particles:
-            p.sx, p.sy = p.x, p.y
-            vx, vy = p.drag * (p.x - p.ox), p.drag * (p.y - p.oy) + GRAVITY
+        for particle in self.particles:
+            particle.sx, particle.sy = particle.x, particle.y
+            vx, vy = particle.drag * (particle.x - particle.ox), particle.drag * (particle.y - particle.oy) + GRAVITY
             speed = (vx * vx + vy * vy) ** 0.5
             if speed > _FASTEST:
                 vx, vy = vx * _FASTEST / speed, vy * _FASTEST / speed
-            p.ox, p.oy = p.x, p.y
-            p.x += vx
-            p.y += vy
+            particle.ox, particle.oy = particle.x, particle.y
+            particle.x += vx
+            particle.y += vy
         for stick in self.sticks:
             self._pull(stick)
-        for p in self.particles:
-            self._collide(level, world, p)
+        for particle in self.particles:
+            self._collide(level, world, particle)
 
     def _pull(self, stick: Stick) -> None:
         a, b = self.particles[stick.first], self.particles[stick.second]
@@ -147,38 +147,38 @@ class Ragdoll:
             b.x -= dx * pull * (1 - stick.share)
             b.y -= dy * pull * (1 - stick.share)
 
-    def _collide(self, level: TileMap, world: World, p: VerletParticle) -> None:
+    def _collide(self, level: TileMap, world: World, particle: VerletParticle) -> None:
         """At the end of the path, and for a fast particle at places before it."""
-        vx, vy = p.x - p.sx, p.y - p.sy
+        vx, vy = particle.x - particle.sx, particle.y - particle.sy
         square = vx * vx + vy * vy
         stops = (1.0,) if square < 4 else (0.5, 1.0) if square < 36 else tuple(k / 6 for k in range(1, 7))
         for share in stops:
-            p.x, p.y = p.sx + vx * share, p.sy + vy * share
-            if solid_at(level, p.x, p.y):
-                p.x, p.y = p.sx, p.sy
+            particle.x, particle.y = particle.sx + vx * share, particle.sy + vy * share
+            if solid_at(level, particle.x, particle.y):
+                particle.x, particle.y = particle.sx, particle.sy
             touched = False
-            for nx, ny, kick in (*tile_push(level, world, p), *object_pushes(world, p)):
-                vx, vy = self._bounce(p, vx, vy, nx, ny)
+            for nx, ny, kick in (*tile_push(level, world, particle), *object_pushes(world, particle)):
+                vx, vy = self._bounce(particle, vx, vy, nx, ny)
                 vx, vy = vx + nx * kick, vy + ny * kick
                 touched = True
             if touched:
-                p.ox, p.oy = p.x - vx, p.y - vy
-                p.sx, p.sy = p.x, p.y
+                particle.ox, particle.oy = particle.x - vx, particle.y - vy
+                particle.sx, particle.sy = particle.x, particle.y
                 break
 
-    def _bounce(self, p: VerletParticle, vx: float, vy: float, nx: float, ny: float) -> Point:
+    def _bounce(self, particle: VerletParticle, vx: float, vy: float, nx: float, ny: float) -> Point:
         """The velocity into and along a surface after a bounce."""
         into, along = vx * nx + vy * ny, -ny * vx + nx * vy
         if into >= 0:
             return vx, vy
-        self.hit(p.x, p.y, -into, along)
+        self.hit(particle.x, particle.y, -into, along)
         into, along = into * (1 - _LOSS_NORMAL), along * (1 - _LOSS_TANGENT)
         return nx * into - ny * along, ny * into + nx * along
 
     def joint(self, k: int, fraction: float) -> Point:
         """The place of a particle, between its last two places."""
-        p = self.particles[k]
-        return p.sx + (p.x - p.sx) * fraction, p.sy + (p.y - p.sy) * fraction
+        particle = self.particles[k]
+        return particle.sx + (particle.x - particle.sx) * fraction, particle.sy + (particle.y - particle.sy) * fraction
 
     def head(self, fraction: float) -> Point:
         """The head continues the trunk."""

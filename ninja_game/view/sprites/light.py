@@ -75,7 +75,7 @@ def _sheet(colour: tuple[int, ...]) -> pygame.Surface:
     half = _GRID / 2
     for y in range(_GRID):
         for x in range(_GRID):
-            far = ((x + 0.5 - half) ** 2 + (y + 0.5 - half) ** 2) / half**2
-            if far < 1:
-                sheet.set_at((x, y), (*colour, round(255 * (1 - far) ** 2)))
+            distance = ((x + 0.5 - half) ** 2 + (y + 0.5 - half) ** 2) / half**2
+            if distance < 1:
+                sheet.set_at((x, y), (*colour, round(255 * (1 - distance) ** 2)))
     return sheet

@@ -42,7 +42,7 @@ def mine(s: Sketch, p: Palette) -> None:
 @drawing(13.5)
 def exit_door(s: Sketch, p: Palette, step: int) -> None:
     """Two leaves before a lit doorway; they fold to its sides, within its frame, since rock may be beside it."""
-    wide = 12.1 - 8 * step / 8
+    width = 12.1 - 8 * step / 8
     s.box(p.outline, -12.6, -12.6, 25.2, 25.2)
     s.box(p.exit if step else mixed(p.exit, p.outline, 0.35), -11.6, -11.6, 23.2, 23.2)
     if step:
@@ -50,8 +50,8 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
         arrow = p.exit if p.scenery else p.bright
         s.polygon(arrow, [(-4.2, -1), (0, -6.2), (4.2, -1), (1.6, -1), (1.6, 5), (-1.6, 5), (-1.6, -1)])
     for side in (-1, 1):
-        x, folded = -12.1 if side < 0 else 12.1 - wide, wide / 12.1
-        s.framed_box(p.light, p.outline, x, -12.1, wide, 24.2)
+        x, folded = -12.1 if side < 0 else 12.1 - width, width / 12.1
+        s.framed_box(p.light, p.outline, x, -12.1, width, 24.2)
         s.box(p.bright, x + 1.8 * folded, -10.2, 8.5 * folded, 1.2)
         s.framed_box(p.middle, p.dark, x + 2.6 * folded, -7.4, 6.9 * folded, 14.8, 0.7)
         s.box(p.exit, x + (8.9 if side < 0 else 1.5) * folded, -2.5, 1.7 * folded, 5)

@@ -24,12 +24,12 @@ class TileSheet:
     def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
         self.colour = colour
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
-        self._look(canvas)
+        self._set_canvas(canvas)
         self._shown: dict[tuple[int, int], TileKey] = {}
         # A bit for each column of a row that is not empty.
         self._rows = [0] * GRID_ROWS
 
-    def _look(self, canvas: Canvas) -> None:
+    def _set_canvas(self, canvas: Canvas) -> None:
         self.canvas = canvas
         self._corner = canvas.stage.topleft
         self._shift = canvas.origin[0] - self._corner[0], canvas.origin[1] - self._corner[1]
@@ -37,16 +37,16 @@ class TileSheet:
     def scroll(self, canvas: Canvas, grid: Sequence[int]) -> None:
         """Show another part of the level at the same scale."""
         x, y = self._shift
-        self._look(canvas)
+        self._set_canvas(canvas)
         kept = scrolled(self.surface, self._shift[0] - x, self._shift[1] - y)
-        for area in around(kept, self.surface.get_rect()):
+        for area in rects_around(kept, self.surface.get_rect()):
             self.surface.fill((0, 0, 0, 0), area)
         self.show(grid, kept)
 
     def show(self, grid: Sequence[int], kept: pygame.Rect | None = None) -> None:
         """Show a world's tiles. ``kept``: px that show them already."""
-        seen, logical = self.canvas.stage, self.canvas.logical
-        (left, top), (right, bottom) = logical(seen.topleft), logical((seen.right, seen.bottom))
+        visible, logical = self.canvas.stage, self.canvas.logical
+        (left, top), (right, bottom) = logical(visible.topleft), logical((visible.right, visible.bottom))
         for row in range(GRID_ROWS)[int((top - 1) / 24) : int(bottom / 24) + 1]:
             for column in range(GRID_COLUMNS)[int((left - 1) / 24) : int(right / 24) + 1]:
                 if not (kept and kept.contains(self.cell(column, row))):
@@ -73,16 +73,16 @@ class TileSheet:
                 return
             key = self.key(column, row, tile)
             self._shown[column, row] = key
-            self._put(self.surface, key, rect, self.colour)
+            self._draw_tile(self.surface, key, rect, self.colour)
 
     def in_colour(self, colour: pygame.Color) -> pygame.Surface:
         """The sheet in another colour."""
         other = pygame.Surface(self.surface.size, pygame.SRCALPHA)
         for cell, key in self._shown.items():
-            self._put(other, key, self.cell(*cell), colour)
+            self._draw_tile(other, key, self.cell(*cell), colour)
         return other
 
-    def _put(self, surface: pygame.Surface, key: TileKey, rect: pygame.Rect, colour: pygame.Color) -> None:
+    def _draw_tile(self, surface: pygame.Surface, key: TileKey, rect: pygame.Rect, colour: pygame.Color) -> None:
         if SHAPE[key[0]] == FULL:
             surface.fill(colour, rect)
         else:
@@ -118,7 +118,7 @@ def scrolled(surface: pygame.Surface, dx: int, dy: int) -> pygame.Rect:
     return surface.get_rect().clip(surface.get_rect(topleft=(dx, dy)))
 
 
-def around(inner: pygame.Rect, outer: pygame.Rect) -> list[pygame.Rect]:
+def rects_around(inner: pygame.Rect, outer: pygame.Rect) -> list[pygame.Rect]:
     """A rectangle without one inside of it, as rectangles that do not overlap."""
     rows = [(outer.top, inner.top), (inner.bottom, outer.bottom)]
     columns = [(outer.left, inner.left), (inner.right, outer.right)]
@@ -126,7 +126,7 @@ def around(inner: pygame.Rect, outer: pygame.Rect) -> list[pygame.Rect]:
     return [*found, *(pygame.Rect(a, inner.top, b - a, inner.height) for a, b in columns)]
 
 
-H = 12.0
+HALF = 12.0
 _ARC_STEPS = 24
 
 
@@ -140,25 +140,25 @@ def outline(tile: int) -> list[Point]:
     if shape in {tiles.EMPTY, tiles.UNDEFINED}:
         return []
     if shape == tiles.FULL:
-        return [(-H, -H), (H, -H), (H, H), (-H, H)]
+        return [(-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF)]
     sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
     if shape == tiles.HALF_TILE:
         # The half against the open side: the square divided at its middle.
-        left, right = (-H if sx >= 0 else 0.0), (H if sx <= 0 else 0.0)
-        top, bottom = (-H if sy >= 0 else 0.0), (H if sy <= 0 else 0.0)
+        left, right = (-HALF if sx >= 0 else 0.0), (HALF if sx <= 0 else 0.0)
+        top, bottom = (-HALF if sy >= 0 else 0.0), (HALF if sy <= 0 else 0.0)
         return [(left, top), (right, top), (right, bottom), (left, bottom)]
-    corner = (-H * sx, -H * sy)
+    corner = (-HALF * sx, -HALF * sy)
     if shape in {tiles.CONCAVE, tiles.CONVEX}:
         # A quarter of a circle about the open (concave) or the solid corner, from one end of the surface to the other.
         sign = 1.0 if shape == tiles.CONCAVE else -1.0
         quarter = [pi / 2 * k / _ARC_STEPS for k in range(_ARC_STEPS + 1)]
-        return [corner, *((sign * (1 - 2 * sin(a)) * sx * H, sign * (1 - 2 * cos(a)) * sy * H) for a in quarter)]
+        return [corner, *((sign * (1 - 2 * sin(a)) * sx * HALF, sign * (1 - 2 * cos(a)) * sy * HALF) for a in quarter)]
     points = [corner, (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])]
     # The thick wedges reach a second corner of the cell, next to the end of the surface in a side's middle.
     if tiles.T_X[tile] == 0.0:
-        points.insert(1, (-H * sx, H * sy))
+        points.insert(1, (-HALF * sx, HALF * sy))
     if tiles.S_Y[tile] == 0.0:
-        points.append((H * sx, -H * sy))
+        points.append((HALF * sx, -HALF * sy))
     return points
 
 
@@ -173,15 +173,16 @@ def tile_picture(
     """
     fine = pygame.Surface((size[0] * ENLARGED, size[1] * ENLARGED), pygame.SRCALPHA)
     # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
-    wide, high = size[0] * ENLARGED, size[1] * ENLARGED
+    width, height = size[0] * ENLARGED, size[1] * ENLARGED
     if scale and tiles.SHAPE[tile] not in _FITTED:
         zoom = scale * ENLARGED
         corners = [
-            ((x + H) * zoom + shift[0] * ENLARGED, (y + H) * zoom + shift[1] * ENLARGED) for x, y in _overlong(tile)
+            ((x + HALF) * zoom + shift[0] * ENLARGED, (y + HALF) * zoom + shift[1] * ENLARGED)
+            for x, y in _overlong(tile)
         ]
     else:
-        exact = [((x + H) / 24 * wide, (y + H) / 24 * high) for x, y in outline(tile)]
-        corners = [(min(x, wide - 0.5), min(y, high - 0.5)) for x, y in exact]
+        exact = [((x + HALF) / 24 * width, (y + HALF) / 24 * height) for x, y in outline(tile)]
+        corners = [(min(x, width - 0.5), min(y, height - 0.5)) for x, y in exact]
     if len(corners) > 2:
         pygame.draw.polygon(fine, colour, corners)
     return pygame.transform.smoothscale(fine, size)

@@ -30,9 +30,9 @@ from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, UNKNOWN_ORIGIN, 
 from ninja_game.web.pages.frame import Content, Markup, joined, on_this_page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, UP, level_page, page_name, path_data, picture, picture_name, run_page
 
-FIRST = 10  # rows of a table
-TOGETHER = 5  # runs side by side
-ENOUGH_SPLITS = 5  # with fewer, splits do not show where time is lost
+ROWS_SHOWN = 10  # rows of a table
+RUNS_SIDE_BY_SIDE = 5  # runs side by side
+MIN_SPLITS = 5  # with fewer, splits do not show where time is lost
 MAX_LEADS = 160  # of a line in a chart
 COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
 MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
@@ -49,7 +49,7 @@ class _Ranks(NamedTuple):
 
     leaderboard: Leaderboard
     rows: list[Ranked]
-    far: list[Ranked]
+    is_far: list[Ranked]
     waiting: list[Ranked]
 
 
@@ -68,7 +68,7 @@ class LevelPages:
         ranks, links, rival = list[tuple[str, str]](), list[Markup](), None
         for leaderboard, rows, number in self.ranking.places.get(run.key, ()):
             row, first = rows[number], rows[0]
-            if number >= FIRST:
+            if number >= ROWS_SHOWN:
                 continue  # else one new run would change the pages of many
             rival = rival or first.run
             if place := parts.place(leaderboard[1], row, first):
@@ -85,13 +85,13 @@ class LevelPages:
                  ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
-            drawn, below = self._of_run(run, rival)
+            drawn, below = self._run_sections(run, rival)
             more, about = joined(*(tag("p", link) for link in links)), (parts.game, parts.links, parts.site)
             return run_page(run.entry, stem, title, facts, BOARD, *about, drawn, more, below)
 
         parts.pages.make(f"{stem}.html", [title, facts, links, parts.around], content, replay=True)
 
-    def _of_run(self, run: Run, rival: Run | None) -> tuple[Markup, Markup]:
+    def _run_sections(self, run: Run, rival: Run | None) -> tuple[Markup, Markup]:
         """The path of a run, and its sections. ``rival``: the first run of a table; without it there are no splits.
 
         They would take most of the time of a large board.
@@ -134,7 +134,7 @@ class LevelPages:
         ladders = self.ranking.ladders, self.ranking.unknown
 
         def content() -> str:
-            top, drawn, more = self._runs(entry)
+            top, drawn, more = self._level_sections(entry)
             return level_page(entry, {}, UP + parts.game, parts.deeper, more, site=parts.site, top=top, drawn=drawn)
 
         parts.pages.make(picture_name(digest), digest, lambda: picture(named.level))
@@ -145,7 +145,7 @@ class LevelPages:
             run = known[row[0]]
             return parts.run_cells(run, seconds_text(run.tick), seconds_text(run.score))
 
-        splits = self.ranking.side_by_side(digest, TOGETHER)[1] if runs else []
+        splits = self.ranking.side_by_side(digest, RUNS_SIDE_BY_SIDE)[1] if runs else []
         for run in runs:
             parts.pages.make(f"{parts.stems[run.key]}.txt", parts.stems[run.key], partial(_text, run), replay=True)
             self.write_run_page(run, splits)
@@ -159,14 +159,14 @@ class LevelPages:
             ordered = sorted(rows, key=itemgetter(-1))
             parts.write_table(name, entry.title, caption, heads, ordered, tag("p", back), cells=cells)
 
-    def _runs(self, entry: Entry) -> tuple[Content, Content, Content]:
+    def _level_sections(self, entry: Entry) -> tuple[Content, Content, Content]:
         """The links to the tables, the paths of the first runs over the level, and all sections below."""
         tables = self.ranking.tables.get(entry.digest, {})
         if not tables:
             return None, None, section("Runs", tag("p", "Nobody has passed this level here yet."))
         runs = f"All runs: {len(self.ranking.by_level[entry.digest])}"
         link = tag("p", tag("a", runs, href=f"{entry.digest[:16]}-runs.html"))
-        category, first_runs = self.ranking.side_by_side(entry.digest, TOGETHER)
+        category, first_runs = self.ranking.side_by_side(entry.digest, RUNS_SIDE_BY_SIDE)
         drawn, beside = self._side_by_side(category, first_runs)
         marks = {run.key: swatch(number) for number, run in enumerate(first_runs)} if beside else {}
         beaten = [part for part in tables if len(self.ranking.history[entry.digest, part]) > 1]
@@ -175,28 +175,28 @@ class LevelPages:
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         merged: dict[Any, list[_Ranks]] = defaultdict(list)
         for part, table_ in tables.items():
-            far, rows = [row for row in table_ if row.far], [row for row in table_ if not row.far][:FIRST]
+            far, rows = [row for row in table_ if row.is_far], [row for row in table_ if not row.is_far][:ROWS_SHOWN]
             ranks = _Ranks(part, rows, far, self.ranking.waiting(entry.digest, part, table_))
             merged[part[0], *((row.place, row.run.key) for row in rows)].append(ranks)
         shown, leaders = list[Content](), dict[Leaderboard, Markup]()
-        for number, same in enumerate(merged.values(), 1):
-            shown.append(self._table(same, marks, anchor := f"ranks-{number}"))
-            shown.append(self._left_out("More than twice as slow", [row for ranks in same for row in ranks.far]))
-            shown.append(self._left_out("Better, and waiting", [row for ranks in same for row in ranks.waiting]))
-            leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in same}
+        for number, group in enumerate(merged.values(), 1):
+            shown.append(self._table(group, marks, anchor := f"ranks-{number}"))
+            shown.append(self._note_on("More than twice as slow", [row for ranks in group for row in ranks.is_far]))
+            shown.append(self._note_on("Better, and waiting", [row for ranks in group for row in ranks.waiting]))
+            leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in group}
         waits = self.parts.waiting_link(self.ranking.by_level[entry.digest])
         leads = [(name, name.capitalize()) for name, content in ((_RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, waits) if waits else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
-        unknown = any(not row.run.made for same in merged.values() for ranks in same for row in ranks.rows)
+        unknown = any(not row.run.made for group in merged.values() for ranks in group for row in ranks.rows)
         shown.append(tag("p", UNKNOWN_ORIGIN.format(self.ranking.unknown)) if unknown else None)
         return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
 
-    def _left_out(self, what: str, rows: Sequence[Ranked]) -> Content:
+    def _note_on(self, what: str, rows: Sequence[Ranked]) -> Content:
         """The line below a table about runs that are not in it, each once."""
         texts = [
             f"{self.parts.shown_name(run.player)} {seconds_text(run.tick)} with {run.gold} gold"
-            for run in {row.run.key: row.run for row in rows[:FIRST]}.values()
+            for run in {row.run.key: row.run for row in rows[:ROWS_SHOWN]}.values()
         ]
         return tag("p", f"{what}: {', '.join(texts)}.") if texts else None
 
@@ -220,8 +220,8 @@ class LevelPages:
         for ranked in zip(*(ranks.rows for ranks in same), strict=True):
             place, run = ranked[0].place, ranked[0].run
             results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
-            late = self.parts.behind(categories[0], ranked[0], same[0].rows[0])
-            cells = self.parts.run_cells(run, *results, late, timed=FASTEST.unit in heads, mark=marks.get(run.key))
+            delay = self.parts.behind(categories[0], ranked[0], same[0].rows[0])
+            cells = self.parts.run_cells(run, *results, delay, timed=FASTEST.unit in heads, mark=marks.get(run.key))
             marked = tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
             rows.append((marked, *cells))
         lesser = LESSER.union(names[1:]) - {names[0]}
@@ -232,7 +232,7 @@ class LevelPages:
 
     def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
         parts, category, runs = self.parts, leaderboard[1], self.ranking.history[entry.digest, leaderboard]
-        moved = "rose" if category.rising else "fell"
+        moved = "rose" if category.greatest_first else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
         better = ["", *(category.gain(before - now) for before, now in pairwise(numbers))]
         rows = [
@@ -243,16 +243,16 @@ class LevelPages:
         moments = [datetime.fromisoformat(run.added).timestamp() if run.added else 0.0 for run in runs]
         start, end = (f"{category.text(numbers[at])} {runs[at].day}" for at in (0, -1))
         label = f"The record {moved} from {start} to {end} in {counted(len(runs) - 1, 'step')}"
-        heights = [-number if category.rising else number for number in numbers]  # as they are shown
+        heights = [-number if category.greatest_first else number for number in numbers]  # as they are shown
         named = [f"{parts.shown_name(run.player)}: {row[2]} {run.day}" for run, row in zip(runs, rows, strict=True)]
         # The first records of a level are often runs for gold: their scale would hide all later steps.
-        since = next(at for at, number in enumerate(numbers) if not category.far(number, numbers[-1]))
+        since = next(at for at, number in enumerate(numbers) if not category.is_far(number, numbers[-1]))
         points = list(zip(moments, heights, strict=True))[since:]
         days = runs[since].day, runs[-1].day
         chart = step_chart(points, named[since:], category.difference, days, label) if len(points) > 1 else None
         heads = ("Date", "Player", category.unit, "Better by", "Watch")
         title = f"How the record {moved}: {self.ranking.leaderboard_name(leaderboard)}"
-        ranked = table("Newest first", heads, rows[: -FIRST - 1 : -1], LESSER)
+        ranked = table("Newest first", heads, rows[: -ROWS_SHOWN - 1 : -1], LESSER)
         return section(title, chart, ranked, anchor=anchor or None)
 
     def _side_by_side(self, category: Category, runs: Sequence[Run]) -> tuple[Markup, Content]:
@@ -269,7 +269,7 @@ class LevelPages:
         together = tag("p", f"{category.name}: ", self.parts.watch_link(runs, UP, text))
         numbers = range(len(runs))
         pairs = [
-            (tag("div", swatch(at), " ", names[at], class_="text"), *(self._pair(runs, at, other) for other in numbers))
+            (tag("div", swatch(at), " ", names[at], class_="text"), *(self._race(runs, at, other) for other in numbers))
             for at in numbers
         ]
         heads = [tag("div", swatch(at), tag("span", names[at], class_="name"), class_="text") for at in numbers]
@@ -282,7 +282,7 @@ class LevelPages:
         note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
         splits = table(note, ("No.", "Split", first, "Fastest segment", *others), lines, ("No.",))
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
-        where = self._where_time_goes(by_time, tabled=len(rows) < ENOUGH_SPLITS)
+        where = self._where_time_goes(by_time, tabled=len(rows) < MIN_SPLITS)
         of_two = section("Any two of the first", races, anchor=RACES)
         return joined(drawn, together), joined(of_two, section("Splits", splits, best, anchor=SPLITS), where)
 
@@ -292,7 +292,7 @@ class LevelPages:
             self._ghosts[run.key] = run_splits(Recording(run.entry.named.level, run.replay), memory="auto")
         return self._ghosts[run.key]
 
-    def _pair(self, runs: Sequence[Run], at: int, other: int) -> Content:
+    def _race(self, runs: Sequence[Run], at: int, other: int) -> Content:
         """A race of two of the runs, in their colours."""
         both = [runs[at], runs[other]]
         return self.parts.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
@@ -309,19 +309,22 @@ class LevelPages:
         length = first.tick + 1
         seconds = range(step := TICKS_PER_SECOND * (1 + length // _MAX_SECONDS), length, step)
         ticks = sorted({*range(0, length, 1 + length // MAX_LEADS), *seconds, first.tick})
-        late = [dict(zip(ticks, self._late(first, other, ticks), strict=True)) for _, other, _ in others]
+        delays = [dict(zip(ticks, self._delays(first, other, ticks), strict=True)) for _, other, _ in others]
         sentences = []
-        for (name, *_), at in zip(others, late, strict=True):
-            near = [(0, 0), *((tick, lead) for tick in seconds if (lead := at[tick]) is not None)]
+        for (name, *_), delay in zip(others, delays, strict=True):
+            near = [(0, 0), *((tick, lead) for tick in seconds if (lead := delay[tick]) is not None)]
             lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
             span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
             sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
         caption = f"Seconds by which each is later where {fastest} is then; a gap: it goes another way"
-        lines = [(number, [*at.values()]) for (*_, number), at in zip(others, late, strict=True)]
+        lines = [(number, [*delay.values()]) for (*_, number), delay in zip(others, delays, strict=True)]
         legend = tag("ul", *(tag("li", swatch(number), f" {name}") for name, _, number in others), class_="facts")
         shown = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
         rows = [
-            (f"{tick // TICKS_PER_SECOND} s", *("" if at[tick] is None else signed(at[tick] or 0) for at in late))
+            (
+                f"{tick // TICKS_PER_SECOND} s",
+                *("" if delay[tick] is None else signed(delay[tick] or 0) for delay in delays),
+            )
             for tick in seconds
         ]
         rows = [row for row in rows if tabled and any(row[1:])]
@@ -329,7 +332,7 @@ class LevelPages:
         folded = tag("details", tag("summary", "As a table"), table(caption, heads, rows)) if rows else None
         return section("Where time goes", *shown, folded)
 
-    def _late(self, first: Run, other: Run, ticks: Sequence[int]) -> list[int | None]:
+    def _delays(self, first: Run, other: Run, ticks: Sequence[int]) -> list[int | None]:
         """As ``_leads``, compared once for all pages of the level. ``ticks``: always the same of a first run."""
         if (pair := (first.key, other.key)) not in self._compared:
             self._compared[pair] = _leads(self._ghost(first).positions, self._ghost(other).positions, ticks)

@@ -25,7 +25,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.web.board.level_pages import FIRST, LevelPages
+from ninja_game.web.board.level_pages import ROWS_SHOWN, LevelPages
 from ninja_game.web.board.parts import (
     EPISODES,
     HOW_TO_CONFIRM,
@@ -342,7 +342,7 @@ class BoardPages:
         for run in runs:
             for part, rows, number in self.ranking.places.get(run.key, ()):
                 row, first = rows[number], rows[0].run
-                if part[1] == self.main and row.place and row.behind and not row.far:
+                if part[1] == self.main and row.place and row.behind and not row.is_far:
                     result = parts.run_link(run, UP, self.main.text(row.values[0])), self.main.difference(row.behind)
                     both = parts.player_link(first.player, UP), parts.watch_link([run, first], UP, "Watch both")
                     gains.append((row.behind, (linked_level(run.entry, UP), *result, row.place, *both)))
@@ -409,7 +409,7 @@ class BoardPages:
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder, except those far behind."""
         table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
-        return [row for row in table if row.place and not row.far]
+        return [row for row in table if row.place and not row.is_far]
 
     def _counts(self, digest: str) -> str:
         """The numbers of a level's runs and players, over all ladders and categories."""
@@ -427,7 +427,7 @@ class BoardPages:
                 # A sum of scores contains the 90 s of each level; the order is the same.
                 ranks_score = part[1].unit == HIGHEST.unit
                 rows = []
-                for place, (player, total, runs) in enumerate(ranked(episode, part)[:FIRST], 1):
+                for place, (player, total, runs) in enumerate(ranked(episode, part)[:ROWS_SHOWN], 1):
                     score = seconds_text(LIFETIME + sum(run.score - LIFETIME for run in runs))
                     results = "" if ranks_score else part[1].text(total), score
                     levels = ", ".join(self.parts.shown_value(part[1], run) for run in runs)

@@ -132,7 +132,7 @@ class Parts:
             return ""
         if row.values == first.values:
             return "equal, later in" if row.run.added > first.run.added else "equal"
-        return category.difference(row.behind) + word if row.behind else category.decided(row.values, first.values)
+        return category.difference(row.behind) + word if row.behind else category.decided_by(row.values, first.values)
 
     def place(self, category: Category, row: Ranked, first: Ranked) -> str:
         """The place of a run, and by how much it is behind the first; "" for one that waits."""

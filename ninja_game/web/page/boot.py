@@ -12,7 +12,7 @@ from pygame.host import LINK  # type: ignore[import-not-found]
 from ninja_game.play.app import App, build_app
 from ninja_game.play.main import first_screen
 
-LONG = 0.02
+LONG_TURN = 0.02
 """A turn whose events and ticks take so many seconds, as one that opens a level, leaves the picture to the next."""
 
 
@@ -65,13 +65,13 @@ def turn(now: float) -> bool:
         if now < _Game.due - 2:
             return True
         _Game.due = max(_Game.due + 1000 / limit, now)
-    passed = int(now) - int(_Game.last)
+    elapsed_ms = int(now) - int(_Game.last)
     _Game.last = now
     started = perf_counter()
-    app.advance(max(0, passed))
+    app.advance(max(0, elapsed_ms))
     if not (app.running and app.stack):
         return False
-    _Game.late = perf_counter() - started > LONG
+    _Game.late = perf_counter() - started > LONG_TURN
     if _Game.late:
         return True
     app.draw()

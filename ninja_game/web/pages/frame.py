@@ -77,7 +77,7 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
 POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self'; base-uri 'none'; form-action 'none'"
 """The content security policy of every page: nothing from elsewhere, no script or style within the page."""
 
-POLICY_OF_FIGURES = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
+FIGURES_POLICY = POLICY.replace("script-src 'self'", "connect-src 'self'; script-src 'self' 'wasm-unsafe-eval'")
 """The policy of pages with figures, which run Python."""
 
 HOME_PAGE = "index.html"
@@ -120,13 +120,13 @@ class Pages:
         self._memo = memo or Memo()
         self._site = Tree(site, kept=False)  # they can always be made again
         self._written: set[str] = set()
-        there = self._site.names(name)
-        if there and MARK not in there:
+        present = self._site.names(name)
+        if present and MARK not in present:
             raise FileError("not a folder of pages made here", str(self.folder), hint="empty it, or choose another one")
-        here = Path(__file__).parent
+        sources = Path(__file__).parent
         self.write(MARK, "made by ninja-game\n")
-        self.write(STYLE, "\n".join((colours(), (here / STYLE).read_text("utf-8"))))
-        self.write(SCRIPT, (here / SCRIPT).read_text("utf-8"))
+        self.write(STYLE, "\n".join((colours(), (sources / STYLE).read_text("utf-8"))))
+        self.write(SCRIPT, (sources / SCRIPT).read_text("utf-8"))
         self.write(ICON, page_icon())
 
     def write(self, name: str, content: str | bytes, *, replay: bool = False) -> None:
@@ -187,7 +187,7 @@ def page(
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
-        tag("meta", http_equiv="Content-Security-Policy", content=POLICY_OF_FIGURES if figures else POLICY),
+        tag("meta", http_equiv="Content-Security-Policy", content=FIGURES_POLICY if figures else POLICY),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="referrer", content="no-referrer"),
         tag("meta", name="description", content=description),
@@ -277,18 +277,18 @@ def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:
 
 
 def table(
-    caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]], lesser: Collection[str] = ()
+    caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]], optional: Collection[str] = ()
 ) -> Markup:
     """A table with its caption, without empty columns; it scrolls by itself if it is too wide.
 
-    ``lesser``: heads of columns that a narrow page leaves out.
+    ``optional``: heads of columns that a narrow page leaves out.
     """
     cells = [list(row) for row in rows]
     filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
     shown, lines = [*compress(heads, filled)], [[*compress(row, filled)] for row in cells]
     numbers = [all(_NUMBER.fullmatch(str(cell)) for cell in column if cell) for column in zip(*lines, strict=True)]
     kinds = [f"n{at}" for at, number in enumerate(numbers, 1) if number]
-    kinds += [f"l{at}" for at, name in enumerate(shown, 1) if name in lesser]
+    kinds += [f"l{at}" for at, name in enumerate(shown, 1) if name in optional]
     head = tag("tr", *(tag("th", _wrapping(name, _MAX_HEAD), scope="col") for name in shown))
     body = tag("tbody", *(tag("tr", *(tag("td", _wrapping(cell)) for cell in line)) for line in lines))
     whole = tag("table", tag("caption", caption), tag("thead", head), body, class_=" ".join(kinds) or None)

@@ -86,7 +86,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("Empty")
     session.begin(open_source(levels / "room.txt"))
-    assert session.certifier.busy, "it is this level's again"
+    assert session.certifier.is_busy, "it is this level's again"
     session.close()
     kept = levels / "certificates" / "room.exit.replay.txt"
     assert not kept.exists()
@@ -117,7 +117,7 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
     room.choose("A room")
     room.press("f7")
     room.wait(lambda: failed.end)
-    assert (failed.end, certifier.busy) == ("there is not enough memory", True)
+    assert (failed.end, certifier.is_busy) == ("there is not enough memory", True)
     assert certifier.text.startswith("Compiling the solver, ")
 
 
@@ -156,7 +156,7 @@ def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
     assert "text '30" in shown
     assert re.search("a minute or more: 30[0-9] s", " ".join(re.findall("text '(.*)'", shown)))
     room.press("f7")
-    assert (session.certifier.busy, room.app.notice) == (True, "Still compiling: F7 stops the search that follows")
+    assert (session.certifier.is_busy, room.app.notice) == (True, "Still compiling: F7 stops the search that follows")
     room.drag((300, 300))
     assert session.certifier.certification.level == room.draft.level
     assert session.certify_text[0] == "3", "it goes on with the level as it is now, and counts on"
@@ -246,7 +246,7 @@ def test_a_search_of_what_no_file_holds_ends_with_the_level(room: Maker) -> None
     certifier = room.editor.session.certifier
     search = certifier.certification = type(certifier.certification)(room.draft.level)
     with pytest.MonkeyPatch.context() as busy:
-        busy.setattr(type(certifier.solver.job), "idle", False)
+        busy.setattr(type(certifier.solver.job), "is_idle", False)
         room.chord("n", pygame.KMOD_LCTRL)
         room.choose("Empty")
     assert (search.end, certifier.text) == ("Stopped", "")

@@ -80,4 +80,4 @@ def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Ma
     gone = points(tools.draft.objects[100])[BODY_PART][0] - x
     assert abs(gone - 9) <= 1
     assert points(tools.draft.objects[0])[BODY_PART] == (before[0][0] + gone, before[0][1])
-    assert not tools.dragging
+    assert not tools.is_dragging

@@ -370,7 +370,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     certifier.seconds = LONGEST
     room.press("f7")
     # A machine that has never compiled the solver needs minutes.
-    room.wait(lambda: certifier.text.startswith("Certified: 0.") or not certifier.busy, "run of the solver")
+    room.wait(lambda: certifier.text.startswith("Certified: 0.") or not certifier.is_busy, "run of the solver")
     certifier.stop()
     assert certifier.text.startswith("Certified: 0."), certifier.text
     assert certifier.certification.route[0] == (60.0, 542.0)
@@ -713,7 +713,7 @@ def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     assert room.editor.properties.widgets[1].text == FIRST_STEPS[0]  # type: ignore[attr-defined]
     assert not any(key[0] == "route" and mark.rects for key, mark in room.editor.view.sheet.marks.items())  # type: ignore[index]
     certifier = session.certifier
-    assert (certifier.text, certifier.busy, certifier.is_stale(session.draft.level)) == ("", False, False)
+    assert (certifier.text, certifier.is_busy, certifier.is_stale(session.draft.level)) == ("", False, False)
 
 
 def test_the_panel_follows_what_is_dragged(room: Maker) -> None:
@@ -1094,7 +1094,7 @@ def test_what_a_search_has_found_is_kept_when_its_level_is_left(room: Maker, tmp
     certifier = session.certifier
     room.chord("s", pygame.KMOD_LCTRL)
     kept = tmp_path / "levels" / "certificates" / "room.exit.replay.txt"
-    with patch.object(type(certifier.solver.job), "idle", False):
+    with patch.object(type(certifier.solver.job), "is_idle", False):
         certifier.certification = Certification(session.draft.level)
         certifier.certification.run = verified_run(session.draft.level, with_press_bits(bytes([2]) * 100))
         room.frames()
@@ -1109,7 +1109,7 @@ def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
     certifier = room.editor.session.certifier
     asked: list[Certification] = []
     with (
-        patch.object(type(certifier.solver.job), "idle", False),
+        patch.object(type(certifier.solver.job), "is_idle", False),
         patch.object(certifier.solver.job, "ask", asked.append),
         patch("ninja_game.editor.certify.compiled_available", lambda: True),
     ):

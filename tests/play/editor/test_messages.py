@@ -39,7 +39,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import TEXT_SIZES, Palette, Theme
-from ninja_game.ui.widgets import PAD, TEXT as TEXT_PX, Button
+from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button
 from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn

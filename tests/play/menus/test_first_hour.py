@@ -436,7 +436,7 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
     browser = driver.opened("Levels", Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
     browser.list._select(place)
-    assert not browser.play_it.enabled
+    assert not browser.play_button.enabled
     assert not browser.practice.enabled
     assert browser.practice.hint == "Finish 5 more levels of episode 1.1 first"
     browser.play(place)

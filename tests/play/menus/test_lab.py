@@ -20,7 +20,7 @@ from ninja_game.play.lab.edges import EDGE_WORDS, Doors, EdgeStates, WalkingEnem
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet, room_world
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import LAB_INPUTS, PHASES, OneTick
-from ninja_game.play.lab.projection import PUSH, Bodies, Projection, Response, candidates
+from ninja_game.play.lab.projection import PUSH_RULE, Bodies, Projection, Response, candidates
 from ninja_game.play.lab.screen import FIGURES, FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
@@ -227,14 +227,14 @@ def test_projection_shows_what_the_collision_does(box: bool) -> None:
             world.edges[:] = figure.world.edges
             (collide_box if box else collide_circle)(figure.tiles, world)
             assert push.points[-1] == pytest.approx((n.x, n.y), abs=1e-9)
-            assert len(push.points) - 1 == sum(call.name == PUSH for call in push.calls)
+            assert len(push.points) - 1 == sum(call.name == PUSH_RULE for call in push.calls)
 
 
 def test_projection_counts_edges_and_shapes() -> None:
     figure = Projection()
     figure.tile = 1
     figure.drag(204, 114)
-    assert (figure.push().by_edge, figure.push().shape_tests) == (1, 0), "a full tile's top is a solid edge"
+    assert (figure.push().edge_pushes, figure.push().shape_tests) == (1, 0), "a full tile's top is a solid edge"
     figure.tile = 2
     assert figure.push().shape_tests == 1, "a slope's is interesting"
     figure.tick()

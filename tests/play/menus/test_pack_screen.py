@@ -98,7 +98,7 @@ def problems_of(driver: MenuDriver, screen: PackScreen) -> Sequence[Problem]:
 def problem_page(driver: MenuDriver) -> ProblemsScreen:
     """The page of problems on top, once they are known."""
     page = driver.shown(ProblemsScreen)
-    driver.wait(lambda: not page._looks, "the problems are known")
+    driver.wait(lambda: not page._waited_ms, "the problems are known")
     return page
 
 
@@ -632,7 +632,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert to_do in screen.status.counts()
     go_on.set()
     driver.wait(lambda: state() != "no run yet", "the card says so before all is done")
-    assert screen.packer.busy
+    assert screen.packer.is_busy
     driver.app.push(grid := EpisodeGrid(driver.app, "Laundry"))
     grid.grid.index = 1
     packs.rename_episode(path, 1, "Wash day")
@@ -680,7 +680,7 @@ def test_what_is_wrong_is_asked_about_before_the_work_and_once(
         driver.choose("Make ready")
         asked("1 open problem")
         driver.choose("Make ready all the same")
-        driver.wait(lambda: not screen.packer.busy)
+        driver.wait(lambda: not screen.packer.is_busy)
         if len(zips) == 2:
             asked("2 open problems")
             driver.choose("Zip and link all the same")
@@ -699,7 +699,7 @@ def test_what_was_made_ready_asks_only_at_its_own_desk(
     screen.read_packs(path)
     pack_sharing.prepare_shown(screen)
     screen.read_packs(other)
-    driver.wait(lambda: not screen.packer.busy)
+    driver.wait(lambda: not screen.packer.is_busy)
     driver.frames(3)
     assert driver.top() is screen
     assert driver.app.notice == "Laundry: Neither zip nor link yet: 1 open problem"
@@ -748,10 +748,10 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     assert path_of_level not in screen.status.checked.places, "nobody has looked for a run yet"
     driver.choose("Make ready")
     driver.wait(lambda: "no run found" in drawn(driver.app), "the card says so before all is done")
-    assert screen.packer.busy
+    assert screen.packer.is_busy
     assert all(each.search is None for each in problems_of(driver, screen))
     go_on.set()
-    driver.wait(lambda: not screen.packer.busy)
+    driver.wait(lambda: not screen.packer.is_busy)
     driver.choose("Problems")
     problem_page(driver)
     assert "the solver never reached it, although it was open" in drawn(driver.app)
@@ -759,7 +759,7 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     driver.shown(PackScreen)
     driver.wait(lambda: len(seconds_each) == 2)
     assert (seconds_each, known_each) == ([20.0, 300.0], [0, 0]), "this run alone is looked for again"
-    driver.wait(lambda: not screen.packer.busy)
+    driver.wait(lambda: not screen.packer.is_busy)
 
 
 def test_problems_speak_of_what_is_seen_not_of_files(driver: MenuDriver, path: Path) -> None:
@@ -799,7 +799,7 @@ def test_making_ready_is_stopped(driver: MenuDriver, path: Path, monkeypatch: py
     assert drawn(driver.app).count("text 'stopped' at") == 1, "the others are certified"
     driver.choose("Make ready")
     driver.app.run(1)
-    driver.wait(lambda: screen.packer._job.idle, "it ends with the program")
+    driver.wait(lambda: screen.packer._job.is_idle, "it ends with the program")
     screen.packer.update()
     with patch("ninja_game.play.menus.packer.Pack") as read:
         driver.app.run(1)

@@ -239,7 +239,7 @@ def test_what_is_typed_is_searched_for_without_a_click_on_the_field(driver: Menu
 def test_nothing_can_be_done_with_no_level(driver: MenuDriver) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    live = [browser.play_it, browser.practice, browser.change, browser.link]
+    live = [browser.play_button, browser.practice, browser.change, browser.link]
     assert all(button.enabled for button in live)
     driver.type("zzz")
     assert "No level matches" in drawn(driver.app)

@@ -65,7 +65,7 @@ def test_edits_are_compared_only_after_a_pause(at: TasDriver, tab: LeadTab) -> N
     for _ in range(PAUSE_MS // 25 + 4):
         at.editor.edit(lambda track: track.replaced(0, 0, [0]))
         at.frames()
-    assert tab._job.idle
+    assert tab._job.is_idle
     assert tab.table is table
     compared(at, tab)
     assert tab.table is not table

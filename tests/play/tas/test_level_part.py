@@ -26,7 +26,7 @@ from ninja_game.runs.compare import SPEED_AHEAD
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.goals import PRESETS
-from ninja_game.tas.timeline import Timeline, apart_text
+from ninja_game.tas.timeline import Timeline, difference_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen, RunFiles
 from ninja_game.tas_editor.level.part import nearest_tick, object_at
@@ -287,7 +287,7 @@ def test_a_splice_says_whether_both_runs_are_in_the_same_state(at: TasDriver) ->
     events = at.session.timeline.event_ticks
     taken = next(tick for tick, names in events if "gold" in names)
     before, after = at.session.timeline.world(taken - 1), at.session.timeline.world(taken)
-    text = apart_text(before, after)
+    text = difference_text(before, after)
     gap = np.hypot(after.ninja.x - before.ninja.x, after.ninja.y - before.ninja.y)
     assert text.startswith(f"not in the same state: {gap:.2f} px away")
     assert re.search(r"; other: .*gold \d+", text)
@@ -490,7 +490,7 @@ def test_the_run_is_watched_with_those_beside_it(at: TasDriver) -> None:
 
 def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: TasDriver) -> None:
     at.editor.edit(lambda track: track.replaced(0, len(track), [0] * 20_000))
-    at.wait(lambda: at.session.timeline.complete, "the whole run")
+    at.wait(lambda: at.session.timeline.is_complete, "the whole run")
     at.editor.go(15_300)
     at.frames()
     assert shown_span(15_300) == (13_000, 19_000)

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.tas.timeline import AFTERMATH
+from ninja_game.tas.timeline import TICKS_BEHIND_END
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.playing import TakeOver
 from ninja_game.ui.input.keys import SCANCODES
@@ -51,7 +51,7 @@ def test_what_is_pressed_is_what_is_recorded_and_it_is_one_edit(at: TasDriver) -
     inputs = with_press_bits(k & 7 for k in at.editor.track.inputs[: START + 51])
     assert at.editor.track.inputs[START + 1 : START + 51] == inputs[START + 1 :]
     assert len(at.session.history._done) == edits + 1
-    assert at.session.timeline.complete
+    assert at.session.timeline.is_complete
     at.chord("z", pygame.KMOD_LCTRL)
     assert at.editor.track == before
 
@@ -170,9 +170,9 @@ def test_after_the_end_it_shows_what_follows_and_ends(at: TasDriver) -> None:
     taken = take_over(at, end - 2)
     before = at.editor.track
     at.keys.script = [before.keys_at(end - 1), *(before.keys_at(end - 1 + k) for k in range(2)), *[1] * 100]
-    at.frames(AFTERMATH + 10)
+    at.frames(TICKS_BEHIND_END + 10)
     assert not taken.on
-    assert at.editor.cursor in (end + AFTERMATH, at.editor.last_tick)
+    assert at.editor.cursor in (end + TICKS_BEHIND_END, at.editor.last_tick)
     assert at.editor.track.inputs == before.inputs, "behind the end nothing is recorded"
     at.press("return")
     assert not taken.on

@@ -88,7 +88,7 @@ def test_only_the_button_that_grabbed_the_level_lets_it_go(at: TasDriver) -> Non
     at.event(pygame.MOUSEBUTTONDOWN, x, y, button=3)
     at.wheel(1, x, y)
     at.event(pygame.MOUSEBUTTONUP, x, y, button=1)
-    assert at.screen.level._pointer.busy
+    assert at.screen.level._pointer.is_busy
     assert at.top() is at.screen, "nothing is asked"
     at.event(pygame.MOUSEBUTTONUP, x, y, button=3)
     assert at.top() is not at.screen, "a formula to watch it"
