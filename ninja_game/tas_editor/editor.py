@@ -14,6 +14,7 @@ import pygame
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.app import App
 from ninja_game.play.workspace import Commands, Pane
+from ninja_game.player.settings import Settings
 from ninja_game.sim.grid import Point
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.journal import BesideRun
@@ -161,17 +162,6 @@ _BETWEEN = _GAP + _STRIP + _THIN
 """Distance between the level and the tabs."""
 
 
-class LayoutPreferences(NamedTuple):
-    """The player's choices, each a percentage or 0 for the default of the window.
-
-    ``text_scale``: the size of a logical px; ``left``: the level's share of the width; ``tabs``: of the height.
-    """
-
-    text_scale: int = 0
-    left: int = 0
-    tabs: int = 0
-
-
 class TasLayout(NamedTuple):
     """Logical px: areas of the parts. ``strip``: of the names of the tabs."""
 
@@ -196,20 +186,21 @@ def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
     return Canvas((width, height), (width / scale, height / scale))
 
 
-def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
+def tas_layout(size: Point, settings: Settings) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
-    Level and tabs are at the left, the roll at the right. By default the level is as large as the tabs' default height,
-    at least a third, allows, and the roll has the rest of the width.
+    Level and tabs are at the left, the roll at the right. By default (0 in the settings) the level is as large as the
+    tabs' default height, at least a third, allows, and the roll has the rest of the width.
     """
     w, h = size
     shared = w - 3 * _EDGE
     height = h - _ABOVE - _BETWEEN - _BELOW
     usual = max(USUAL_TABS, height / 3)
     roll = min(max(MIN_ROLL, shared - (height - usual) * WIDTH / HEIGHT), MAX_ROLL)
-    left = shared * preferences.left / 100 if preferences.left else shared - roll
+    left = shared * settings.level_width / 100 if settings.level_width else shared - roll
     left = min(max(MIN_LEFT, left), shared - MIN_ROLL)
-    tabs = height * preferences.tabs / 100 if preferences.tabs else max(usual, height - ceil(left * HEIGHT / WIDTH))
+    usual = max(usual, height - ceil(left * HEIGHT / WIDTH))
+    tabs = height * settings.tabs_height / 100 if settings.tabs_height else usual
     tabs = min(max(MIN_TABS, tabs), height - MIN_LEVEL)
     top = _ABOVE + height - tabs
     aside = left + 2 * _EDGE
@@ -240,26 +231,25 @@ class Splitters(TasPart):
         super().__init__(editor)
         self._parts = parts
         self._known: tuple[object, ...] = ()
-        self._dragged_to: LayoutPreferences | None = None
+        self._dragged_to: Settings | None = None
         self._side = ""
         self._grabbed = 0.0, 0.0
         self._before: TasLayout | None = None
 
     @property
-    def preferences(self) -> LayoutPreferences:
-        settings = self.editor.app.settings
-        return self._dragged_to or LayoutPreferences(settings.text_scale, settings.level_width, settings.tabs_height)
+    def _settings(self) -> Settings:
+        return self._dragged_to or self.editor.app.settings
 
     def fit(self) -> bool:
         """Update theme and layout for the window, and place all parts; whether they have changed."""
-        shown, preferences = self.editor.app.theme, self.preferences
-        if (shown, preferences) == self._known:
+        shown, settings = self.editor.app.theme, self._settings
+        if (shown, settings) == self._known:
             return False
-        canvas = tas_canvas(shown.canvas.window, preferences.text_scale)
+        canvas = tas_canvas(shown.canvas.window, settings.text_scale)
         if self._known[:1] != (shown,) or self.editor.theme.canvas.scale != canvas.scale:
             self.editor.theme = Theme(shown.palette, canvas)
-        self._known = shown, preferences
-        self.layout = tas_layout((canvas.window[0] / canvas.scale, canvas.window[1] / canvas.scale), preferences)
+        self._known = shown, settings
+        self.layout = tas_layout((canvas.window[0] / canvas.scale, canvas.window[1] / canvas.scale), settings)
         for part in self._parts:
             part.place(getattr(self.layout, part.slot))
         return True
@@ -314,18 +304,17 @@ class Splitters(TasPart):
         (left, top, w, h), tabs = self.layout.level, self.layout.tabs[3]
         dx, dy = self._grabbed
         if self._side == "left":
-            self._dragged_to = self.preferences._replace(left=_percent((x - dx - left) / (w + self.layout.roll[2])))
+            width = _percent((x - dx - left) / (w + self.layout.roll[2]))
+            self._dragged_to = self._settings.changed(level_width=width)
         else:
-            self._dragged_to = self.preferences._replace(tabs=_percent(1 - (y - dy - top) / (h + tabs)))
+            self._dragged_to = self._settings.changed(tabs_height=_percent(1 - (y - dy - top) / (h + tabs)))
 
     def _end(self) -> None:
         self._side = ""
-        if self._dragged_to is not None:
-            preferences, self._dragged_to = self._dragged_to, None
-            if self.layout == self._before:
-                # A window too small to drag in changes no choice for larger windows.
-                return
-            self.editor.app.change_settings(level_width=preferences.left, tabs_height=preferences.tabs)
+        settings, self._dragged_to = self._dragged_to, None
+        # A window too small to drag in changes no choice for larger windows.
+        if settings is not None and self.layout != self._before:
+            self.editor.app.change_settings(level_width=settings.level_width, tabs_height=settings.tabs_height)
 
     def mouse_left(self) -> None:
         _show_pointer(pygame.SYSTEM_CURSOR_ARROW)

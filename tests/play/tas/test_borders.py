@@ -10,9 +10,9 @@ import pygame
 import pytest
 
 from ninja_game.play.menu_screen import Menu
-from ninja_game.player.settings import read_settings
+from ninja_game.player.settings import Settings, read_settings
 from ninja_game.tas.files import open_run
-from ninja_game.tas_editor.editor import MIN_ROLL, LayoutPreferences, tas_canvas, tas_layout
+from ninja_game.tas_editor.editor import MIN_ROLL, tas_canvas, tas_layout
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.ui.theme import Area
 from tests.play.tas.conftest import RUN
@@ -33,15 +33,19 @@ def overlap(a: Area, b: Area) -> bool:
     return a[0] < b[0] + b[2] and b[0] < a[0] + a[2] and a[1] < b[1] + b[3] and b[1] < a[1] + a[3]
 
 
-CHOSEN = [LayoutPreferences(), LayoutPreferences(100, 99, 99), LayoutPreferences(400, 1, 1)]
+CHOSEN = [
+    Settings(),
+    Settings(text_scale=100, level_width=99, tabs_height=99),
+    Settings(text_scale=400, level_width=1, tabs_height=1),
+]
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("preferences", CHOSEN)
-def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], preferences: LayoutPreferences) -> None:
-    canvas = tas_canvas(size, preferences.text_scale)
+@pytest.mark.parametrize("settings", CHOSEN)
+def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], settings: Settings) -> None:
+    canvas = tas_canvas(size, settings.text_scale)
     width, height = size[0] / canvas.scale, size[1] / canvas.scale
-    layout = tas_layout((width, height), preferences)
+    layout = tas_layout((width, height), settings)
     areas = layout[1:-1]
     assert all(x >= 0 and y >= 0 and x + w <= width + 0.01 and y + h <= height + 0.01 for x, y, w, h in areas)
     assert not [pair for pair in combinations(areas, 2) if overlap(*pair)]
@@ -80,9 +84,9 @@ def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: TasDriver, 
     rows = at.screen.roll.layout.rows
     at.chord("minus", pygame.KMOD_LCTRL)
     assert at.screen.roll.layout.rows > rows
-    settings, preferences = read_settings(at.player.folder / "settings.toml")[0], at.screen.splitters.preferences
-    assert (settings.text_scale, settings.level_width, settings.tabs_height) == preferences
-    assert all(preferences)
+    settings = read_settings(at.player.folder / "settings.toml")[0]
+    assert settings == at.screen.app.settings
+    assert all((settings.text_scale, settings.level_width, settings.tabs_height))
     again = TasDriver(at.player.folder, Path(copy(RUN, tmp_path / "again.replay.txt")), (1920, 1080))
     assert again.screen.splitters.layout == at.screen.splitters.layout
     again.chord("0", pygame.KMOD_LCTRL)

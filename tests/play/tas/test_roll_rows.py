@@ -8,9 +8,10 @@ import numpy as np
 import pygame
 import pytest
 
+from ninja_game.player.settings import Settings
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.editor import LayoutPreferences, tas_canvas, tas_layout
+from ninja_game.tas_editor.editor import tas_canvas, tas_layout
 from ninja_game.tas_editor.roll.facts import RowFacts, changed_ticks, row_facts, row_text
 from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, RowSheet, layout_of, shortened
 from ninja_game.ui.canvas import Canvas
@@ -92,7 +93,7 @@ def test_rows_know_what_is_simulated_and_where_the_run_ends(at: TasDriver) -> No
 
 def roll_of(size: tuple[int, int]) -> tuple[Canvas, Area]:
     canvas = tas_canvas(size)
-    return canvas, tas_layout((size[0] / canvas.scale, size[1] / canvas.scale), LayoutPreferences()).roll
+    return canvas, tas_layout((size[0] / canvas.scale, size[1] / canvas.scale), Settings()).roll
 
 
 @pytest.mark.parametrize("size", [(600, 450), (1000, 1000)])

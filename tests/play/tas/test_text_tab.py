@@ -8,10 +8,11 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.notations import Marker
+from ninja_game.player.settings import Settings
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.files import inputs_of_text, open_run
 from ninja_game.tas.tracks import InputTrack
-from ninja_game.tas_editor.editor import USUAL_TABS, LayoutPreferences, tas_layout
+from ninja_game.tas_editor.editor import USUAL_TABS, tas_layout
 from ninja_game.tas_editor.tabs.text_tab import TextTab, starts_of, text_of
 from tests.support.tas_driver import TasDriver
 
@@ -220,7 +221,7 @@ def test_the_line_of_the_cursor_stays_in_the_middle_third_but_under_the_mouse(at
 
 
 def test_a_taller_window_shows_more_lines() -> None:
-    heights = [tas_layout(size, LayoutPreferences()).tabs[3] for size in ((792, 600), (1433, 806), (1651, 929))]
+    heights = [tas_layout(size, Settings()).tabs[3] for size in ((792, 600), (1433, 806), (1651, 929))]
     assert heights == [pytest.approx(USUAL_TABS), pytest.approx(731 / 3, abs=1), pytest.approx(854 / 3, abs=1)]
 
 
