@@ -167,9 +167,8 @@ class GoldBeam:
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
         key = (checkpoint.taken, checkpoint.mask)
         frontiers = self.depths.setdefault(checkpoint.taken.bit_count() + checkpoint.mask.bit_count(), {})
-        if key not in frontiers:
-            frontiers[key] = Frontier(*key, tour=[piece for piece in tour if not checkpoint.taken >> piece & 1])
-        frontiers[key].add(checkpoint, BEAM_WIDTH)
+        left = [piece for piece in tour if not checkpoint.taken >> piece & 1]
+        frontiers.setdefault(key, Frontier(*key, tour=left)).add(checkpoint, BEAM_WIDTH)
 
     def _value(self, frontier: Frontier) -> float:
         """Ticks so far plus the estimated ticks to come along the frontier's tour."""

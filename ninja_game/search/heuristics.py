@@ -6,6 +6,7 @@ it is mostly too optimistic and no bound.
 
 from __future__ import annotations
 
+from math import hypot
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -123,10 +124,10 @@ def points_at(places: NDArray[np.float64]) -> NDArray[np.int64]:
     return points
 
 
-def widened(field: DistanceField, steps: int = 3) -> DistanceField:
-    """Add values for impassable points beside passable ones: the ninja may rest between points."""
-    grid = field.reshape(_DOWN, ACROSS).copy()
-    for _ in range(steps):
+def widened(field: DistanceField) -> DistanceField:
+    """Add values for impassable points at most three beside passable ones: the ninja may rest between points."""
+    grid = field.reshape(_DOWN, ACROSS)
+    for _ in range(3):
         padded = np.pad(grid, 1, constant_values=UNREACHED)
         around = [padded[1 + dy : 1 + dy + _DOWN, 1 + dx : 1 + dx + ACROSS] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
         nearest = np.minimum.reduce(around) + np.float32(2.0)
@@ -137,14 +138,10 @@ def widened(field: DistanceField, steps: int = 3) -> DistanceField:
 def points_about(x: float, y: float, radius: float) -> list[int]:
     """List the points within ``radius`` px of a place."""
     reach = int(radius / _SPACING) + 1
-    points = set()
-    for i in range(-reach, reach + 1):
-        for j in range(-reach, reach + 1):
-            point = point_at(x + i * _SPACING, y + j * _SPACING)
-            dx, dy = _SPACING * (point % ACROSS) - x, _SPACING * (point // ACROSS) - y
-            if dx * dx + dy * dy < radius * radius:
-                points.add(point)
-    return sorted(points)
+    steps = range(-reach, reach + 1)
+    around = {point_at(x + i * _SPACING, y + j * _SPACING) for i in steps for j in steps}
+    far = {point: hypot(_SPACING * (point % ACROSS) - x, _SPACING * (point // ACROSS) - y) for point in around}
+    return sorted(point for point in around if far[point] < radius)
 
 
 DOOR_COST = 40.0
@@ -220,7 +217,7 @@ class Heuristics:
 
     def opened(self, worlds: WorldArray, index: int) -> int:
         """The switch state of world ``index``."""
-        return int(compiled_if_possible(open_mask_at)(worlds, index, self.slots))
+        return int(open_masks(worlds["objects"][index : index + 1], self.slots)[0])
 
     def tour_fields(self, switch_state: int) -> DistanceField:
         """Ticks to each piece of gold and, in the last row, to the exit by way of its switch: (pieces + 1, points).
@@ -369,17 +366,8 @@ def open_mask(w: World, slots: Any) -> int:
     return open_bits(w, slots, 0, len(slots))
 
 
-@kernel
-def open_mask_at(worlds: Any, index: int, slots: Any) -> int:
-    """The switch state of world ``index``, with a bit for each of ``slots``."""
-    return open_bits(worlds[index], slots, 0, len(slots))
-
-
 def open_masks(objects: Any, slots: Any) -> NDArray[np.int64]:
     """The switch states of many worlds, by their objects: records (worlds, slots)."""
-    masks = np.zeros(len(objects), np.int64)
-    for bit, slot in enumerate(slots):
-        record = objects[:, slot]
-        opened = np.where(record["kind"] == EXIT, record["is_open"], record["switched"])
-        masks |= (opened != 0).astype(np.int64) << bit
+    kind, opened, switched = (objects[name][:, slots] for name in ("kind", "is_open", "switched"))
+    masks: NDArray[np.int64] = (np.where(kind == EXIT, opened, switched) != 0) @ (1 << np.arange(len(slots)))
     return masks

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ UNBOUNDED = 1 << 30
 ROLLOUTS = 16
 """Random runs that test whether the end of a leg can be survived. Not tuned."""
 FIELDS_KEPT = 400  # fields to single pieces, 53 KB each, before all are discarded
-MASKS_KEPT = 16  # sets of fields to all pieces, likewise
+MASKS_KEPT = 16  # sets of fields to all pieces
 
 Spend = Callable[[int], bool]
 """Counts ticks that a search has just simulated; returns true if it must end."""
@@ -98,21 +99,13 @@ class Leg(NamedTuple):
 
 
 class LegFields:
-    """The distance fields of the legs of one level, made on demand."""
+    """The distance fields of the legs of one level, made on demand. ``tours``: as ``Heuristics.tour_fields``."""
 
     def __init__(self, heuristics: Heuristics) -> None:
         self.heuristics = heuristics
         self.points = np.array([point_at(x, y) for x, y in heuristics.gold_places], np.int64)
-        self._tours: dict[int, DistanceField] = {}
+        self.tours = lru_cache(MASKS_KEPT)(heuristics.tour_fields)
         self._pieces: dict[tuple[int, int], DistanceField] = {}
-
-    def tours(self, mask: int) -> DistanceField:
-        """The fields of all pieces and of the exit in a switch state (``Heuristics.tour_fields``)."""
-        if mask not in self._tours:
-            if len(self._tours) >= MASKS_KEPT:
-                self._tours.clear()
-            self._tours[mask] = self.heuristics.tour_fields(mask)
-        return self._tours[mask]
 
     def to_piece(self, piece: int, mask: int, x: float, y: float) -> DistanceField:
         """The field of a piece in a switch state."""

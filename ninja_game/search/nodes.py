@@ -64,7 +64,6 @@ class Node:
     chunk: i4  #: first chunk of its save-state, -1: none (any more)
     words: i4  #: words in its save-state
     next: i4  #: next node of its bucket, -1: last
-    priority: i4  #: number of its bucket
     switch_state: i4  #: index of its switch state (heuristics.py)
     entry: i4  #: place in the table
     to_go: f4  #: estimated ticks to the exit
@@ -316,7 +315,6 @@ def push_node(index: int, priority: float, arrays: SearchArrays) -> None:
     counters = arrays.counters[0]
     bucket = int(priority)
     bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)
-    arrays.nodes[index].priority = bucket
     arrays.nodes[index].next = arrays.buckets[bucket]
     arrays.buckets[bucket] = index
     counters.waiting += 1

@@ -179,9 +179,8 @@ class Route:
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
         """Put a checkpoint into its frontier; the frontier keeps the best."""
         key = (checkpoint.taken if self.gold else 0, checkpoint.mask)
-        if key not in self.frontiers:
-            self.frontiers[key] = Frontier(*key, tour=[k for k in tour if not checkpoint.taken >> k & 1])
-        frontier = self.frontiers[key]
+        left = [piece for piece in tour if not checkpoint.taken >> piece & 1]
+        frontier = self.frontiers.setdefault(key, Frontier(*key, tour=left))
         self.ever_taken |= checkpoint.taken
         self.most = max(self.most, frontier.count)
         if checkpoint.before and frontier.count >= self.gold:
