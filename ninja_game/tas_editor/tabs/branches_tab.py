@@ -42,7 +42,7 @@ class BranchesTab(Tab):
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
         self.list.area = x + 4, y + 20, w - 8, h - 43
-        put_in_a_row(x + 4, y + h - 20, self._buttons, (46, 58, 58, 56, 46))
+        put_in_a_row((x + 4, y + h - 20, w - 8, 17), self._buttons, (46, 58, 58, 56, 46))
 
     def commands(self) -> Commands:
         return {"branch": self.keep}

@@ -17,7 +17,7 @@ from ninja_game.tas.goals import IMPROVE, IMPROVE_GOLD, IMPROVES, PRESETS, RunPi
 from ninja_game.tas_editor.editor import OtherRun, Span, TasEditor
 from ninja_game.tas_editor.span_pieces import SpanPieces
 from ninja_game.tas_editor.span_results import SpanResults
-from ninja_game.tas_editor.tabs.tab import SMALL, TAB_ROW, UNPLACED, EntryField, Rows, Tab, what_is_wrong
+from ninja_game.tas_editor.tabs.tab import SMALL, TAB_ROW, UNPLACED, EntryField, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Choice, Widget
@@ -90,34 +90,32 @@ class SearchTab(Tab):
         self.goal, self.measure = (
             EntryField(prompt, self.start, longest=_MAX_FORMULA, hint=_NAMES, put=self._typed) for prompt in fields
         )
+        selected = Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL)
+        presets = Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with")
+        hint = "Best is what reaches the goal first, or has the most or least of the value beside this"
+        order = Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._set_order, hint=hint)
+        hint = "What follows the goal in the run is played, too, and must still reach the exit"
+        rest = Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._set_rest, hint=hint)
+        hint = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
+        method = Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method, hint=hint)
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
         hint = "Under the mouse: its path in the level; a click puts it into the run"
         self.list = Rows(self._draw_row, self._use_row, keeps=False, hint=hint)
-        common = "Common goals, to begin with"
-        with_rest = "What follows the goal in the run is played, too, and must still reach the exit"
-        best = "Best is what reaches the goal first, or has the most or least of the value beside this"
-        ways = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
-        #: Widgets with left, top, width and height, px; what is not above 0 is counted from the right, or from below.
-        self._placed: tuple[tuple[Widget, Area], ...] = (
-            (Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL), (-182, 4, 96, 18)),
-            (Button(UNPLACED, "Presets", self.propose, size=SMALL, hint=common), (-82, 4, 78, 18)),
-            (self.goal, (40, 25, -4, 18)),
-            (Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._set_order, hint=best), (4, 46, 118, 18)),
-            (self.measure, (126, 46, -154, 18)),
-            (Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._set_rest, hint=with_rest), (-150, 46, 146, 18)),
-            (Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method, hint=ways), (4, 67, 150, 18)),
-            (self._button, (158, 67, 58, 18)),
-            (self._forget, (-80, 86, 76, 13)),
-            (self.list, (4, 99, -4, -2)),
+        #: Its lines: top and height, px; widgets, None: a gap; their widths, px, 0: what the others leave
+        self._lines: tuple[tuple[float, float, Sequence[Widget | None], Sequence[float]], ...] = (
+            (4, 18, (None, selected, presets), (0, 96, 78)),
+            (25, 18, (None, self.goal), (32, 0)),
+            (46, 18, (order, self.measure, rest), (118, 0, 146)),
+            (67, 18, (method, self._button), (150, 58)),
+            (86, 13, (None, self._forget), (0, 76)),
         )
-        self.widgets = [widget for widget, _ in self._placed]
+        self.widgets = [*(widget for line in self._lines for widget in line[2] if widget), self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        for widget, (left, top, wide, high) in self._placed:
-            begin = left if left >= 0 else w + left
-            width = wide if wide > 0 else w + wide - begin
-            widget.area = x + begin, y + top, width, high if high > 0 else h + high - top
+        for top, high, widgets, widths in self._lines:
+            put_in_a_row((x + 4, y + top, w - 8, high), widgets, widths)
+        self.list.area = x + 4, y + 99, w - 8, h - 101
 
     def commands(self) -> Commands:
         return {"search": self.focus_goal}

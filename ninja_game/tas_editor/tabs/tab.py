@@ -16,7 +16,7 @@ from ninja_game.tas_editor.editor import OtherRun, TasEditor, TasPart
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme
-from ninja_game.ui.widgets import Button, next_option
+from ninja_game.ui.widgets import Button, Widget, next_option
 from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
 
 SMALL = 9.0  # size of the text in lists and buttons, px
@@ -73,7 +73,7 @@ class Tab(TasPart):
 
 
 class LitButton(Button):
-    def __init__(self, text: str, action: Callable[[], object], is_lit: Callable[[], bool], *, hint: str = "") -> None:
+    def __init__(self, text: str, action: Callable[[], object], is_lit: Callable[[], bool], hint: str = "") -> None:
         super().__init__(UNPLACED, text, action, size=SMALL, hint=hint)
         self.is_lit = is_lit
 
@@ -94,15 +94,13 @@ class TabStrip(TasPart):
     def __init__(self, editor: TasEditor, tabs: Sequence[Tab], overlays: Overlays) -> None:
         super().__init__(editor)
         self.tabs, self._overlays = tabs, overlays
-        names = [
+        self.widgets = [
             LitButton(tab.name, partial(setattr, editor, "tab", tab.name), partial(self._is_on, tab.name))
             for tab in tabs
         ]
-        switches = [
-            LitButton(key, partial(overlays.toggle, name), partial(self._is_on, name), hint=TAS_COMMANDS.hint(name))
-            for name, key in ((action, key_text(TAS_COMMANDS.by_name[action])) for action in OVERLAY_ACTIONS)
-        ]
-        self.widgets = [*names, *switches]
+        for name in OVERLAY_ACTIONS:
+            key, toggle = key_text(TAS_COMMANDS.by_name[name]), partial(overlays.toggle, name)
+            self.widgets.append(LitButton(key, toggle, partial(self._is_on, name), TAS_COMMANDS.hint(name)))
 
     def _is_on(self, name: str) -> bool:
         return name == self.editor.tab or name in self._overlays.on
@@ -212,9 +210,13 @@ class EntryField(TextEntry):
         return True
 
 
-def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence[float]) -> None:
-    for button, width in zip(buttons, widths, strict=True):
-        button.area = x, y, width, 17
+def put_in_a_row(area: Area, widgets: Sequence[Widget | None], widths: Sequence[float]) -> None:
+    """Place widgets beside each other, 4 px apart; None: a gap; width 0: what the others leave."""
+    x, y, w, h = area
+    for widget, wide in zip(widgets, widths, strict=True):
+        width = wide or w - sum(widths) - 4 * (len(widths) - 1)
+        if widget is not None:
+            widget.area = x, y, width, h
         x += width + 4
 
 

@@ -18,7 +18,7 @@ from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, with_press
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import Span, TasEditor
-from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab
+from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, put_in_a_row
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button
 
@@ -110,9 +110,7 @@ class TextTab(Tab):
         self.widgets: list[Rows | EntryField | Button] = [self.field, self.fold, self.notation, self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        self.field.area = x + 4, y + 4, w - 120, 18
-        self.fold.area = x + w - 112, y + 4, 44, 18
-        self.notation.area = x + w - 64, y + 4, 60, 18
+        put_in_a_row((x + 4, y + 4, w - 8, 18), [self.field, self.fold, self.notation], (0, 44, 60))
         self.list.area = x + 4, y + 26, w - 8, h - 30
 
     def update(self, real_ms: int) -> None:

@@ -248,7 +248,7 @@ class ValuesTab(Tab):
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
         listed = 168 + (w - 424) / 5
         self.list.area = x + 4, y + 5, listed, h - 27
-        put_in_a_row(x + 4, y + h - 21, self._buttons, (48, 54, 54))
+        put_in_a_row((x + 4, y + h - 21, listed, 17), self._buttons, (48, 54, 54))
         left = x + listed + 40
         self._plot = left, y + 4, x + w - 6 - left, h - 23
         self.window.left, self.window.width = left, self._plot[2]
