@@ -18,7 +18,6 @@ from ninja_game.search.formula.task import MAX_SPAN
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.session import TasSession
-from ninja_game.tas.timeline import Timeline
 
 EXIT_TICKS = 5 * TICKS_PER_SECOND  # least ticks in which the exit is searched, for a run that does not reach it
 IMPROVES = IMPROVE, IMPROVE_GOLD = "improve", "improve with the gold"
@@ -51,31 +50,23 @@ class SearchedSpan:
     last: int
 
     @cached_property
-    def start(self) -> dict[str, float]:
-        """The ninja in front of the span."""
-        return self._ninja(max(0, self.first - 1))
-
-    @cached_property
     def end(self) -> dict[str, float]:
-        """The ninja at its end. Raises ArgumentError for a span that ends behind the run."""
-        return self._ninja(self.last - 1)
+        """The ninja at its end. Raises as ``places`` does."""
+        tick, column = self.last - 1, self.session.timeline.column
+        x, y = self.places(tick)[0].tolist()
+        prev_x, prev_y, state, gold = (float(column(name)[tick]) for name in ("prev_x", "prev_y", "state", "gold"))
+        return {"x": x, "y": y, "vx": x - prev_x, "vy": y - prev_y, "state": state, "gold": gold}
 
     def places(self, first: int) -> NDArray[np.float64]:
-        """The ninja's places from tick ``first`` on to the span's end, (ticks, 2), px. Raises as ``end``."""
-        return self._known(self.last - 1).positions[first : self.last]
+        """The ninja's places from tick ``first`` on to the span's end, (ticks, 2), px.
 
-    def _known(self, tick: int) -> Timeline:
-        """The simulated run, at least up to a tick."""
-        timeline = self.session.timeline
+        Raises ArgumentError for a span that ends behind the run.
+        """
+        timeline, tick = self.session.timeline, self.last - 1
         timeline.ensure(tick)
         if tick >= timeline.simulated_until:
             raise ArgumentError(f"the span ends in tick {tick}, the run in tick {len(self.session.track) - 1}")
-        return timeline
-
-    def _ninja(self, tick: int) -> dict[str, float]:
-        timeline = self._known(tick)
-        numbers = {name: float(timeline.column(name)[tick]) for name in ("x", "y", "prev_x", "prev_y", "state", "gold")}
-        return {**numbers, "vx": numbers["x"] - numbers["prev_x"], "vy": numbers["y"] - numbers["prev_y"]}
+        return timeline.positions[first : self.last]
 
 
 def be_there(span: SearchedSpan) -> SpanGoal:
@@ -84,11 +75,11 @@ def be_there(span: SearchedSpan) -> SpanGoal:
 
 
 def go_beyond(span: SearchedSpan) -> SpanGoal:
-    start, end = span.start, span.end
+    x = span.end["x"]
     # Rounded so that the run itself has passed the line at its end.
-    if end["x"] >= start["x"]:
-        return SpanGoal(f"x >= {floor(end['x'] * 1000) / 1000:.7g}")
-    return SpanGoal(f"x <= {ceil(end['x'] * 1000) / 1000:.7g}")
+    if x >= span.places(max(0, span.first - 1))[0, 0]:
+        return SpanGoal(f"x >= {floor(x * 1000) / 1000:.7g}")
+    return SpanGoal(f"x <= {ceil(x * 1000) / 1000:.7g}")
 
 
 def reach_exit(span: SearchedSpan) -> SpanGoal:
