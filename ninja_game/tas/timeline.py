@@ -54,12 +54,6 @@ class Trajectory:
         """The ninja after each tick: float64 (ticks, 2), px."""
         return np.column_stack([self.columns["x"], self.columns["y"]])
 
-    @property
-    def velocities(self) -> NDArray[np.float64]:
-        """The ninja's displacement in each tick: float64 (ticks, 2), px/tick."""
-        moved: NDArray[np.float64] = self.positions - np.column_stack([self.columns["prev_x"], self.columns["prev_y"]])
-        return moved
-
     def at(self, tick: int) -> dict[str, Any]:
         """The fields after a tick; behind the last one those of the last. Raises IndexError for an empty one."""
         return {name: column[min(tick, len(column) - 1)].item() for name, column in self.columns.items()}
@@ -199,9 +193,16 @@ class Timeline:
         """A field of TRACED_FLOATS (px, px/tick) or TRACED_INTS after each simulated tick: (simulated_until,)."""
         return self._columns[name][: self.simulated_until]
 
-    def object_column(self, id_: int, name: str) -> NDArray[Any]:
-        """x, y (px), s (status) or switched (0, 1) of a watched object: (simulated_until,)."""
-        return self._objects[: self.simulated_until, self.watched.index(id_)][name]
+    def object_column(self, id_: float, name: str) -> FormulaValues:
+        """x, y (px), s (status) or switched (0, 1) of an object: (simulated_until,).
+
+        Raises ArgumentError for an unknown one, _UnwatchedError for one that is not recorded yet.
+        """
+        self.at_start(id_)
+        if id_ not in self.watched:
+            raise _UnwatchedError(int(id_))
+        column: FormulaValues = self._objects[: self.simulated_until, self.watched.index(int(id_))][name].astype(float)
+        return column
 
     def events(self, tick: int) -> str:
         """The names of the events of a simulated tick, with spaces between; of others ''."""
@@ -375,7 +376,7 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
         return values
 
     def of_object(name: str) -> Callable[..., FormulaValues]:
-        return lambda number: _object_column(timeline, id_of(number), name)
+        return lambda number: timeline.object_column(id_of(number), name)
 
     return ninja_view(of) | {
         "object_x": of_object("x"),
@@ -387,16 +388,9 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     }
 
 
-def _object_column(timeline: Timeline, id_: float, name: str) -> FormulaValues:
-    timeline.at_start(id_)
-    if id_ not in timeline.watched:
-        raise _UnwatchedError(int(id_))
-    return timeline.object_column(int(id_), name).astype(np.float64)
-
-
 def _flag(timeline: Timeline, id_: float, what: str) -> FormulaValues:
     """Whether an object is collected or opened: its status differs from that at the start."""
     kind, _, _, status = timeline.at_start(id_)
     if flag_field(what, kind, id_) == "switched":
-        return _object_column(timeline, id_, "switched")
-    return np.where(_object_column(timeline, id_, "s") != status, 1.0, 0.0)
+        return timeline.object_column(id_, "switched")
+    return np.where(timeline.object_column(id_, "s") != status, 1.0, 0.0)

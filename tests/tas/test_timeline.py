@@ -63,7 +63,7 @@ def check(timeline: Timeline) -> None:
         place = straight.ids.index(id_)
         for name in ("x", "y", "s"):
             wanted = straight.objects[name][:valid, place]
-            assert timeline.object_column(id_, name).tobytes() == wanted.tobytes(), (id_, name)
+            assert timeline.object_column(id_, name).tobytes() == wanted.astype(float).tobytes(), (id_, name)
 
 
 @pytest.mark.parametrize("memory", BOTH)
