@@ -170,7 +170,7 @@ class LevelPart(TasPart):
         whole = picture.fit(rect.size) or whole
         if whole or self._paths is None or self._paths.theme is not theme:
             self._paths = paths.LevelPaths(theme, picture.canvas)
-        picture.draw(fraction, whole=whole)
+        picture.view.draw(picture.surface, fraction, whole=whole)
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
         over = self._paths
@@ -180,7 +180,7 @@ class LevelPart(TasPart):
         over.draw_names(inner, names, picture.place(fraction))
         if len(positions):
             over.draw_present(inner, positions, editor.cursor, editor.selection, paths.shown_span(editor.cursor))
-        picture.draw_ninja_over(inner, fraction)
+        picture.view.draw_ninja_over(inner, fraction)
         if self.hover is not None and self.hover < len(positions):
             over.draw_hover(inner, positions, self.hover)
         if self.pointed is not None:

@@ -87,7 +87,7 @@ class CachedWorldSimulation(Simulation):
 
 
 class LevelPicture:
-    """``canvas``: from px of the level to px of ``surface``, the picture. ``run``: the one shown.
+    """``canvas``: from px of the level to px of ``surface``, where ``view`` draws. ``run``: the one shown.
 
     ``camera``: the visible part of the level; ``overlays``: those of the game.
     """
@@ -99,7 +99,7 @@ class LevelPicture:
         self.camera = Camera()
         self.surface: pygame.Surface
         self._context: OffscreenContext
-        self._view: LevelView
+        self.view: LevelView
         self._seen: tuple[object, ...] = ()
         self.fit((1, 1))
 
@@ -129,17 +129,17 @@ class LevelPicture:
         self._context = OffscreenContext(size, settings)
         self._context.audio_output, self._context.canvas = app.audio_output, self.camera.canvas(size)
         self.surface = pygame.Surface(size)
-        self._view = LevelView(self._context, self.run, audible=False)
-        self._view.overlays = self.overlays
-        self._view.on_seek()
+        self.view = LevelView(self._context, self.run, audible=False)
+        self.view.overlays = self.overlays
+        self.view.on_seek()
         return True
 
     def place(self, fraction: float) -> Point:
-        return self._view.object_animation.ninja_place(fraction)
+        return self.view.object_animation.ninja_place(fraction)
 
     def follow(self, ghosts: list[RunGhost]) -> None:
-        if self._view.ghosts != ghosts:
-            self._view.ghosts = ghosts
+        if self.view.ghosts != ghosts:
+            self.view.ghosts = ghosts
             for ghost in ghosts:
                 ghost.on_seek(self.run.tick)
 
@@ -152,11 +152,11 @@ class LevelPicture:
         run, inputs = self.run, fit_inputs(timeline.inputs[:moment], moment)
         if run.inputs == inputs:
             return
-        self._view.audible = audible
+        self.view.audible = audible
         if not (moment - _NEAR <= run.tick < moment and inputs.startswith(run.inputs)):
             self._seek(moment, inputs)
         self._play(inputs)
-        self._view.audible = False
+        self.view.audible = False
 
     def _seek(self, moment: int, inputs: bytes) -> None:
         """Seek to some ticks before a tick."""
@@ -165,7 +165,7 @@ class LevelPicture:
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
         self._go(start, inputs)
         if corpse is not None:
-            self._view.ragdoll = corpse
+            self.view.ragdoll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
         """Go to a tick, without animations from earlier pictures."""
@@ -174,13 +174,13 @@ class LevelPicture:
         self.run.restore(self.editor.session.timeline.save_state(moment))
         while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])
-        self._view.on_seek()
+        self.view.on_seek()
 
     def _corpse(self, end: int, inputs: bytes, ticks: int) -> Ragdoll | None:
         """The corpse a number of ticks after the death: it falls again, in the world of those ticks."""
         self._go(end, inputs)
         self._play(inputs[: end + 1])
-        corpse, world = self._view.ragdoll, self.run.world
+        corpse, world = self.view.ragdoll, self.run.world
         for _ in range(ticks - 1):
             if corpse is not None:
                 corpse.step(self.run.tiles, world)
@@ -189,11 +189,4 @@ class LevelPicture:
     def _play(self, inputs: bytes) -> None:
         for keys in inputs[self.run.tick :]:
             self.run.step_keys(keys)
-            self._view.on_tick()
-
-    def draw(self, fraction: float, *, whole: bool) -> None:
-        self._view.draw(self.surface, fraction, whole=whole)
-
-    def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
-        """Draw the ninja once more, over a copy of the picture with something drawn on it."""
-        self._view.draw_ninja_over(surface, fraction)
+            self.view.on_tick()

@@ -210,8 +210,8 @@ def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
     screen.level.others.open([at.session.recording(mine.replaced(60, 60, [0] * 7), "later")])
     editor.go(120)
     here, there = at.session.timeline.positions[120], editor.others[0].trajectory.positions
-    speed = at.session.timeline.trajectory().velocities[120]
-    faster = np.hypot(*(editor.others[0].trajectory.velocities - speed).T)
+    speed = here - at.session.timeline.positions[119]
+    faster = np.hypot(*(np.diff(there, axis=0, prepend=there[:1]) - speed).T)
     nearest = int(np.argmin(np.hypot(*(there - here).T) + SPEED_AHEAD * faster))
     editor.go(121)
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
@@ -242,7 +242,7 @@ def test_the_beginning_of_another_run_before_the_rest_of_this_one(at: TasDriver)
     assert (editor.track, at.app.notice) == (mine, "No tick is before this one: go to where your own run goes on")
     editor.go(120)
     here, there = at.session.timeline.positions[119], other.trajectory.positions
-    faster = other.trajectory.velocities - at.session.timeline.trajectory().velocities[119]
+    faster = np.diff(there, axis=0, prepend=there[:1]) - (here - at.session.timeline.positions[118])
     joint = int(np.argmin(np.hypot(*(there - here).T) + SPEED_AHEAD * np.hypot(*faster.T))) + 1
     assert joint != 120
     at.choose_in_menu("Take from the other run...")
@@ -511,8 +511,8 @@ def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: 
         pygame.display.set_mode(size)
         pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED))
         at.frames()
-        assert picture._view is not None
-        (ghost,) = picture._view.ghosts
+        assert picture.view is not None
+        (ghost,) = picture.view.ghosts
         assert ghost.place(1.0) == tuple(screen.session.timeline.positions[100])
 
 
@@ -600,7 +600,8 @@ def test_the_overlays_of_the_game_lie_over_the_level_also_where_it_is_zoomed(at:
         for key in "123456":
             at.press(key)
         left = picture()
-        at.screen.level.picture.draw(1.0, whole=True)
+        shown = at.screen.level.picture
+        shown.view.draw(shown.surface, 1.0, whole=True)
         assert picture() == left, "nothing of them stays"
         at.screen.level.picture.camera.zoom_at(at.screen.level.picture.surface.get_size(), (200, 150), 4)
 
