@@ -23,7 +23,7 @@ from ninja_game.formats.run_time import time_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
-    from ninja_game.search.formula.task import SpanResult
+    from ninja_game.search.formula.task import SpanResult, SpanTask
     from ninja_game.search.task import Progress, Task
 
 
@@ -204,7 +204,6 @@ def search(
       ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
     """
     from ninja_game.formats.load import load_replays
-    from ninja_game.runs.run import record_replay, run_level
     from ninja_game.search.certificate import improved_replay
     from ninja_game.search.formula.methods import search_span
     from ninja_game.search.formula.task import SpanTask, own_tick, score_text, tidied
@@ -231,36 +230,15 @@ def search(
         rest=rest,
         body=recording.body,
     )
-    begun = run_level(task.level, recording.inputs, body=task.body) if rest else None
-    # With --rest a score is the ticks to the exit.
-    limit = begun.ticks if begun and begun.outcome == "exit" else math.inf
-    start = 0.0
     with progress_line() as shown:
-        saved: list[SpanResult] = []
-        misses: list[SpanResult] = []
-
-        def report(ticks: int, found: tuple[SpanResult, ...]) -> bool:
-            best = [result for result in found if result.score < limit]
-            if save and best and (not saved or best[0] < saved[-1]):
-                saved.append(best[0])
-                save(record_replay(task.level, best[0].inputs, body=task.body))
-            known = best or misses[-1:]
-            standing = score_text(task, known[0]) if known else "nothing yet"
-            if best:
-                standing = f"best {standing}"
-            nonlocal start
-            start = start or time.monotonic()
-            spent = time.monotonic() - start
-            shown.say(f"{standing}  {ticks / 1e6:.1f}M ticks")
-            return spent < seconds
-
+        report = _SpanReport(task, seconds, save, shown.say)
         found = search_span(
-            task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=misses.append
+            task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=report.misses.append
         )
-    results = [tidied(task, result) for result in found if result.score < limit]
-    if save and results:
-        save(record_replay(task.level, results[0].inputs, body=task.body))
-    for result in results or misses[-1:]:
+    results = [tidied(task, result) for result in report.sooner(found)]
+    if results:
+        report.save(results[0])
+    for result in results or report.misses[-1:]:
         click.echo(f"{score_text(task, result)}: {_keys(result)}")
     if not results:
         what = "nothing sooner was found" if found else "the goal was not reached"
@@ -272,6 +250,49 @@ def search(
         longer = f"; --to {own + 1} includes it" if own >= last else ""
         click.echo(f"nothing sooner than RUN, which reaches the goal in tick {own}{longer}")
     return 0 if results else FAILED
+
+
+class _SpanReport:
+    """The report of a span search: it shows the best result so far, and writes each better run.
+
+    ``misses``: the nearest results as long as nothing reached the goal.
+    """
+
+    def __init__(
+        self, task: SpanTask, seconds: float, save: Callable[[Replay], None] | None, say: Callable[[str], object]
+    ) -> None:
+        from ninja_game.runs.run import run_level
+
+        self.task, self._seconds, self._save, self._say = task, seconds, save, say
+        self.misses: list[SpanResult] = []
+        self._saved: SpanResult | None = None
+        self._began = 0.0
+        begun = run_level(task.level, task.inputs, body=task.body) if task.rest else None
+        # With --rest a score is the ticks to the exit.
+        self._limit = begun.ticks if begun and begun.outcome == "exit" else math.inf
+
+    def __call__(self, ticks: int, found: Sequence[SpanResult]) -> bool:
+        """Whether the search goes on: its time begins with the first report, when everything is compiled."""
+        from ninja_game.search.formula.task import score_text
+
+        best = self.sooner(found)
+        if best and (self._saved is None or best[0] < self._saved):
+            self._saved = best[0]
+            self.save(best[0])
+        standing = next((score_text(self.task, result) for result in best or self.misses[-1:]), "nothing yet")
+        self._say(f"{'best ' if best else ''}{standing}  {ticks / 1e6:.1f}M ticks")
+        self._began = self._began or time.monotonic()
+        return time.monotonic() - self._began < self._seconds
+
+    def sooner(self, found: Sequence[SpanResult]) -> list[SpanResult]:
+        """The results that are better than RUN where its rest follows; else all."""
+        return [result for result in found if result.score < self._limit]
+
+    def save(self, result: SpanResult) -> None:
+        from ninja_game.runs.run import record_replay
+
+        if self._save:
+            self._save(record_replay(self.task.level, result.inputs, body=self.task.body))
 
 
 def _keys(result: SpanResult) -> str:
