@@ -82,16 +82,12 @@ def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: i
                 rim, [*arc(0, 0, 7.7, angle + 8, angle + 37, 4), *reversed(arc(0, 0, 6.1, angle + 8, angle + 37, 4))]
             )
         if p.danger_by_shape or chasing:
-            for angle in range(0, 360, 45):
-                a = radians(angle)
-                s.stroke(p.electric, (8.4 * cos(a), 8.4 * sin(a)), (10 * cos(a), 10 * sin(a)), 1.0)
+            s.rays(p.electric, range(0, 360, 45), 8.4, 10, 1.0)
     elif weapon == 1:
         s.disc(p.weapon, 0, 0, 5.6 + 2.0 * heat / 8)
         s.disc(mixed(p.drone, p.weapon, 0.35), 0, 0, 4.6)
         s.disc(mixed(p.weapon, p.flame, heat / 8), 0, 0, 4.4 * heat / 8)
-        for angle in (45, 135, 225, 315):
-            a = radians(angle)
-            s.stroke(p.weapon, (6 * cos(a), 6 * sin(a)), (8 * cos(a), 8 * sin(a)), 1.2)
+        s.rays(p.weapon, (45, 135, 225, 315), 6, 8, 1.2)
     elif weapon == 2:
         s.polygon(p.weapon, arc(0, 0, 7.6, 20, 160))
         s.polygon(p.weapon, arc(0, 0, 7.6, 200, 340))

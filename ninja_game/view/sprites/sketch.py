@@ -5,7 +5,7 @@ The result is premultiplied by its alpha: only then is averaging right, and SDL 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import ceil, cos, floor, radians, sin
 from typing import NamedTuple
 
@@ -78,6 +78,11 @@ class Sketch:
     def stroke(self, colour: Colour, a: Point, b: Point, width: float, end_width: float | None = None) -> None:
         """A line with round ends; with ``end_width`` it tapers."""
         self.limb(colour, (a, b), (width, width if end_width is None else end_width))
+
+    def rays(self, colour: Colour, angles: Iterable[float], near: float, far: float, width: float) -> None:
+        """Strokes away from (0, 0), at some angles (degrees), from ``near`` to ``far`` px."""
+        for x, y in ((cos(radians(angle)), sin(radians(angle))) for angle in angles):
+            self.stroke(colour, (near * x, near * y), (far * x, far * y), width)
 
     def path(self, colour: Colour, points: Sequence[Point], width: float) -> None:
         self.limb(colour, points, [width] * len(points))

@@ -141,9 +141,7 @@ def turret_base(s: Sketch, p: Palette, step: int) -> None:
     s.disc(mixed(p.turret, p.outline, 0.5), 0, 0, 3.7)
     s.disc(p.bright if step else p.warning, 0, 0, 1.1 + 2.2 * step / 8)
     if p.danger_by_shape:
-        for angle in (45, 135, 225, 315):
-            a = radians(angle)
-            s.stroke(p.outline, (4.2 * cos(a), 4.2 * sin(a)), (6.6 * cos(a), 6.6 * sin(a)), 1.4)
+        s.rays(p.outline, (45, 135, 225, 315), 4.2, 6.6, 1.4)
 
 
 @drawing(7)
@@ -170,9 +168,7 @@ def crosshair(s: Sketch, p: Palette, look: int) -> None:
         s.stroke(colour, (0, -radius), (0, radius), s_width)
         return
     s.ring(colour, 0, 0, radius * 0.72, s_width)
-    for angle in (0, 90, 180, 270):
-        a = radians(angle)
-        s.stroke(colour, (radius * 0.45 * cos(a), radius * 0.45 * sin(a)), (radius * cos(a), radius * sin(a)), s_width)
+    s.rays(colour, (0, 90, 180, 270), radius * 0.45, radius, s_width)
     if look == 3:
         s.disc(p.laser, 0, 0, 1.3)
 
