@@ -40,11 +40,10 @@ class Backdrop:
         self._mines: list[int] = []
         self._mine_places: list[pygame.Rect] = []
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
-        self._order: list[int] = []
+        self._order: list[int] | None = None
         self._rects: dict[int, pygame.Rect] = {}
         self._lights: dict[int, tuple[Light, pygame.Surface, pygame.Rect]] = {}
         self._moving: set[int] = set()
-        self._drawn = False
 
     def reset(self, world: World, animation: ObjectAnimation) -> list[pygame.Rect]:
         """Show another world, or moment, of this level; the px that changed."""
@@ -52,9 +51,9 @@ class Backdrop:
         # Walls first, then the objects before them.
         front = {GOLD, MINE}
         order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
-        fresh, changed = order != self._order or not self._drawn, []
+        fresh, changed = order != self._order, []
         if fresh:
-            self._order, self._drawn = order, True
+            self._order = order
             self._blits.clear()
             self._rects.clear()
             self._lights.clear()
@@ -116,7 +115,7 @@ class Backdrop:
         for _, glow, place in self._lights.values():
             if place.colliderect(area):
                 self.picture.blit(glow, place)
-        for slot in self._order:
+        for slot in self._order or ():
             rect = self._rects.get(slot)
             if rect is not None and rect.colliderect(area):
                 for sprite, px, py in self._blits[slot]:
