@@ -118,16 +118,10 @@ class SpanSearches:
         self, first: int, last: int, settings: SpanSettings, *, seed: int, ticks: int, spend: Spend
     ) -> bytes | None:
         """Search the ticks ``first`` … ``last`` - 1; gives a shorter run than the known one, or None."""
-        search = self._search
-        _, max_delay, max_distance, place_price, speed_price = settings
-        run = self.run._replace(
-            span=(first, last),
-            max_delay=max_delay,
-            max_distance=max_distance,
-            place_price=place_price,
-            speed_price=speed_price,
-        )
-        search.begin_along(run, self._inputs, settings.resolution, seed=seed, gold=self.gold)
+        search, of_run = self._search, settings._asdict()
+        resolution = of_run.pop("resolution")
+        run = self.run._replace(span=(first, last), **of_run)
+        search.begin_along(run, self._inputs, resolution, seed=seed, gold=self.gold)
         end = MORE
         while end == MORE and search.ticks < ticks:
             before = search.ticks
