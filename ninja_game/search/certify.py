@@ -87,9 +87,7 @@ def _certify(
     certified: dict[str, Certified] = {}
     amounts = {name: level.level.gold if gold < 0 else gold for name, gold in wanted.goals.items()}
     for name, gold in amounts.items():
-        task = Task(level.level, gold=gold, **wanted.task)
-        kept = read_certificate(level, where[name], body=task.body, gold=task.gold) if where else None
-        certified[name] = _certify_goal(level, where.get(name), task, kept, certified, report, stop, wanted.improve)
+        certified[name] = _certify_goal(level, where.get(name), gold, wanted, certified, report, stop)
     for name, other in [(name, other) for name in certified for other in certified if name != other]:
         run, best = certified[other].run, certified[name].run
         if run and run.gold >= amounts[name] and (not best or run.end_tick < best.end_tick):
@@ -101,21 +99,22 @@ def _certify(
 def _certify_goal(
     level: NamedLevel,
     path: Path | None,
-    task: Task,
-    kept: tuple[Replay, bool] | None,
+    gold: int,
+    wanted: CertifyOptions,
     others: Mapping[str, Certified],
     report: Callable[[Progress], None],
     stop: Event,
-    improve: bool,
 ) -> Certified:
     """The best run for a goal: the kept one, one found for another goal, or the result of a new search."""
+    task = Task(level.level, gold=gold, **wanted.task)
+    kept = read_certificate(level, path, body=task.body, gold=gold) if path else None
     run, of_this_level = kept or (None, False)
-    if run and of_this_level and not improve:
-        return Certified(run, task.gold, "kept")
+    if run and of_this_level and not wanted.improve:
+        return Certified(run, gold, "kept")
     for other in others.values():
-        if other.run and other.run.gold >= task.gold and (not run or other.run.end_tick < run.end_tick):
+        if other.run and other.run.gold >= gold and (not run or other.run.end_tick < run.end_tick):
             _write(level, path, other.run)
-            return Certified(other.run, task.gold, other.how)
+            return Certified(other.run, gold, other.how)
     last: list[Progress] = []
 
     def remember(progress: Progress) -> None:
@@ -135,9 +134,9 @@ def _certify_goal(
     if run and (not best or run.end_tick <= best.end_tick):
         if not of_this_level:
             _write(level, path, run)
-        return Certified(run, task.gold, "kept", *last)
+        return Certified(run, gold, "kept", *last)
     how = "not found" if not best else "shortened" if run else "found"
-    return Certified(best, task.gold, how, *last)
+    return Certified(best, gold, how, *last)
 
 
 def _write(level: NamedLevel, path: Path | None, run: Replay) -> None:
