@@ -248,14 +248,8 @@ class EditorView(Pane):
     def message(self) -> int | None:
         """The number of the selected message."""
         tools, number = self.session.tools, self._message
-        if (
-            number is None
-            or tools.tool != "select"
-            or tools.selection
-            or number not in said_places(tools.draft).values()
-        ):
-            return None
-        return number
+        selects = tools.tool == "select" and not tools.selection
+        return number if selects and number in said_places(tools.draft).values() else None
 
     def _layout_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name, *self.camera.render_key
@@ -310,7 +304,7 @@ class EditorView(Pane):
 
     def show_grid(self, grid: Grid) -> None:
         self.grid = grid
-        self.sheet.show_grid(self.grid.lines())
+        self.sheet.show_grid(grid.lines())
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
         cell = self.session.tools.cell
