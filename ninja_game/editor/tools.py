@@ -244,10 +244,7 @@ class EditorTools:
 
     def pick(self) -> None:
         part = stamps.nearest_part(self.draft, *self.pointer, PICK_REACH)
-        if part:
-            self.pick_up(self.draft.objects[part[0]])
-        else:
-            self.pick_up(self.draft.tile(self.cell))
+        self.pick_up(self.draft.objects[part[0]] if part else self.draft.tile(self.cell))
 
     def pick_up(self, what: int | ObjectSpec) -> None:
         self.finish()
