@@ -359,12 +359,8 @@ class EditorCommands(DocumentCommands):
         def ask() -> None:
             self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
 
-        choose_place = (
-            "Test with the ninja at a click",
-            ask,
-            f"Key at the pointer: {key_text(EDITOR_COMMANDS.by_name['test_here'])}",
-        )
-        commands = map(EDITOR_COMMANDS.by_name.__getitem__, IN_MORE)
+        here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("test_here", *IN_MORE))
+        choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
         self.app.push(Menu(self.app, "More", [choose_place, *rows, CANCEL]))
 

@@ -314,9 +314,8 @@ def things_of(draft: Draft, when: str) -> list[Point]:
 
 def said_at(draft: Draft, message: LevelMessage) -> Point | None:
     """Where the ninja is when a message comes, px: what it has just touched; None where that is unknown."""
-    return (
-        None if message.number else next((at for at in things_of(draft, message.when) if message.is_about(*at)), None)
-    )
+    things = [] if message.number else things_of(draft, message.when)
+    return next((at for at in things if message.is_about(*at)), None)
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

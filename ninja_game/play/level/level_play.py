@@ -134,7 +134,7 @@ class LevelPlay:
             self.messages.say_again()
         for keys in self.playthrough.lead:
             self.attempt.tick(keys)
-            self.tools.on_tick()
+            self.tools.playback.note()
             self._say()
         self.view.on_seek()
 
@@ -277,7 +277,7 @@ class LevelPlay:
             self.keys, self._tapped = held & ~self._ignored, 0
             self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
-            self.tools.on_tick()
+            self.tools.playback.note()
             if self.phase is Phase.PLAY:
                 self._say()
             self._note_end()
@@ -347,9 +347,6 @@ class PracticeTools:
         """The attempt was restarted; a quick-save stays valid."""
         self.playback = Playback(self.attempt.simulation, self.attempt.inputs, spacing=_SPACING)
         self.rewinding = self.stepping = False
-
-    def on_tick(self) -> None:
-        self.playback.note()
 
     def quick_save(self) -> None:
         self.saved = self.attempt.save()
