@@ -339,13 +339,13 @@ def ramp(a: Cell, b: Cell) -> Tiles:
         return {}
     # It goes down as far as its last cell, or below that where slopes alone fill its length.
     drops = down + (long <= 2 * down or long == 2 * down + 2)
-    tiles = {}
+    tiles, slopes = {}, _STEEP if steep else _GENTLE
     if drops == down:
         tiles[end] = FULL
         long -= 1
     for k in range(drops):
         run = long * (k + 1) // drops - long * k // drops
-        keys = ("1",) if run == 1 else _STEEP if steep else _GENTLE
+        keys = ("1",) if run == 1 else slopes
         for left in range(run, 0, -1):
             if left > 2:
                 tiles[x, y] = FULL

@@ -606,7 +606,8 @@ class MessagesScreen(MenuScreen):
 
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
         parsed, moment = self._parsed(message), self._heard(message)
-        spot = moment.spot if moment else None if parsed else self._eye(message)
+        spot = None if parsed else self._eye(message)
+        spot = moment.spot if moment else spot
         place = parsed and parsed.place
         layout = self._draft.level.tiles, self._things(stage), place, spot
         return placed_message(text, *layout, of_start=message.when == "start") if text else None
