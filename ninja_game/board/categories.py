@@ -100,8 +100,10 @@ class Category:
     def decided_by(self, values: Sequence[float], best: Sequence[float]) -> str:
         """The criterion that decides against a run with the best first number.
 
-        >>> FASTEST.decided((40, -3), (40, -5)), Category("A", ("gold", "presses + jumps")).decided((0, 3), (0, 2))
-        ('same time, less gold', 'same value, by presses + jumps')
+        >>> FASTEST.decided_by((40, -3), (40, -5))
+        'same time, less gold'
+        >>> Category("A", ("gold", "presses + jumps")).decided_by((0, 3), (0, 2))
+        'same value, by presses + jumps'
         """
         rank = next(rank.strip() for rank, ours, theirs in zip(self.rank, values, best, strict=True) if ours != theirs)
         return f"same {self.unit.lower()}, " + _WORSE.get(rank, f"by {rank}")
@@ -115,7 +117,7 @@ class Category:
     def is_far(self, value: float, first: float) -> bool:
         """Whether a time is so much slower than the first that its run had another aim, such as gold.
 
-        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
+        >>> FASTEST.is_far(900, 344), FASTEST.is_far(60, 23), HIGHEST.is_far(900, 344)
         (True, False, False)
         """
         return self.unit == "Time" and value > max(2 * first, first + _FAR_TICKS)
