@@ -25,7 +25,7 @@ RUN_NUMBERS: dict[str, Callable[[Run], float]] = {
 }  # fmt: skip
 """The values of a run for formulas: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
-_MAX_BYTES = 2**20  # of a ``board.toml``
+_MAX_BYTES = 2**20  # size of a ``board.toml``
 MAX_CATEGORIES = 12
 MAX_RANKS = 4  # most formulas that rank a category
 _MAX_NAME = 40

@@ -27,7 +27,7 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
-_MAX_BYTES = 2**20  # of a file: a hundred times a long run
+_MAX_BYTES = 2**20  # size of a file: a hundred times a long run
 
 SETTLED = 2 * 10**9  # nanoseconds until a file's time is certain to show a change
 

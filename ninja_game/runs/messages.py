@@ -19,18 +19,18 @@ from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import SLIDING
 from ninja_game.simulation import Simulation
 
-SHOWN_TICKS = 240  # for which a message is shown after its event
+SHOWN_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
-_FADE_TICKS = 20  # in which a message near a place fades at its end
+_FADE_TICKS = 20  # ticks in which a message near a place fades at its end
 _WAITS = {"at", "after"}  # moments that wait until what just happened was read
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
 
 AGAIN = "Stuck? {retry} starts the level over"
 # AGAIN is for players who are stuck, not for those who wait because a text says so.
-STILL_TICKS = 400  # for which the ninja is still
-QUIET_TICKS = 800  # since any text
-_AWAY = 2 * CELL  # from the start, px
+STILL_TICKS = 400  # ticks for which the ninja is still
+QUIET_TICKS = 800  # ticks since the last text
+_AWAY = 2 * CELL  # px from the start
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"

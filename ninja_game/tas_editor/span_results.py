@@ -192,7 +192,7 @@ class SpanResults:
         before = () if isinstance(self.search, RunSearch) else self.better
         better = [
             run
-            for run in (*results, *before)  # of equal ones the tidy one
+            for run in (*results, *before)  # new ones first: they may be tidier
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]

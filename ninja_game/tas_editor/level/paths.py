@@ -29,7 +29,7 @@ _BLOCK = 1000  # ticks by which the visible part of a long run moves
 LETTERS = 9  # size of texts over the level, in logical px of the TAS editor, as all sizes here
 _MAX_NAME = 100
 _THIN = 0.8  # width of paths
-_THICK = 2.7  # of their selected part
+_THICK = 2.7  # width of their selected part
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:

@@ -30,10 +30,10 @@ from ninja_game.ui.canvas import png_of
 from ninja_game.web.pages import frame
 from ninja_game.web.pages.frame import GAME_PAGE, HOME_PAGE, NAVIGATION, SEARCH_PAGE, Content, Markup, joined, tag
 
-FILM = "pictures/ninja-game.webp"  # of the first page
-_STILL = "pictures/ninja-game.png"  # for readers who want no motion
+FILM = "pictures/ninja-game.webp"  # the film of the first page
+_STILL = "pictures/ninja-game.png"  # its picture, for readers who want no motion
 
-FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
+FIGURES_SCRIPT = "app-folder/figures.js"  # the script that animates figures
 
 LAB = "lab-"  # the beginning of the name of a figure's picture
 
