@@ -1,4 +1,4 @@
-"""The runs of a board: those that count, and those that do not, with the reason."""
+"""The runs of a board, counted and rejected ones, with the reason of the rejection."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A pack made ready to share: certified, measured and linted, with its zip and its link."""
+"""Makes a pack ready to share: certified, measured and linted, as a zip and a link."""
 
 from __future__ import annotations
 

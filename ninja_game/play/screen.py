@@ -1,4 +1,4 @@
-"""What fills the window, the stack of it, and what goes on beside it."""
+"""The base of all screens, their stack, and work that continues under any screen."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The level under edit: its picture, the pointer, and the area that the other parts leave."""
+"""The level under edit in its part of the window: picture, overlay, pointer; and the places of all parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A pack on its way to other players: its problems, made ready, zipped and linked; received from others."""
+"""Packs are shared and received: their problems, *Make ready*, zips and links, and packs from others."""
 
 from __future__ import annotations
 

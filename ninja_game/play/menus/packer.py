@@ -1,4 +1,4 @@
-"""The state of a pack, and the background work that makes it ready to share, on whatever screen."""
+"""Makes a pack ready to share, in the background under any screen; and the state of that work."""
 
 from __future__ import annotations
 

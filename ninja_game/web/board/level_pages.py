@@ -1,4 +1,4 @@
-"""The pages of levels and of runs."""
+"""A board's pages of levels and of runs; all others are in ``pages``."""
 
 from __future__ import annotations
 
