@@ -165,7 +165,6 @@ def choose(items: Sequence[N], what: str, path: Path, record: int | None) -> N:
 
 
 def load_level_option(path: Path | None) -> Level | None:
-    """The level that ``level_option`` names."""
     return choose_level(path, None).level if path else None
 
 

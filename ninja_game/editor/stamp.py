@@ -27,6 +27,8 @@ ObjectPart = tuple[int, int]
 
 
 class Stamp(NamedTuple):
+    """Tiles by cell, and objects, at the places where they would be drawn. Cells may be EMPTY."""
+
     tiles: Tiles
     objects: tuple[ObjectSpec, ...] = ()
 

@@ -93,6 +93,8 @@ class Aside:
 
 
 class ScreenStack:
+    """The open screens. The top one gets the events, and is told by ``enter`` and ``leave`` of the change."""
+
     def __init__(self) -> None:
         self._screens: list[BaseScreen] = []
 

@@ -192,6 +192,8 @@ class Overlay:
 
 
 class EditorLayout(NamedTuple):
+    """Areas of the parts of the editor, logical px."""
+
     toolbar: Area = (0, 0, 792, 26)
     level: Area = (6, 30, 602, 456)
     palette: Area = (610, 26, 182, 231)

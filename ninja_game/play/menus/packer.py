@@ -278,7 +278,6 @@ class PackStatus:
 
 
 def packer_of(app: App) -> Packer:
-    """The packer of the program."""
     for task in app.aside:
         if isinstance(task, Packer):
             return task
