@@ -70,12 +70,12 @@ class Category:
 
     @cached_property
     def greatest_first(self) -> bool:
-        """Whether the greatest is first: its first formula begins with a minus."""
+        """Whether a greater value is better: its first formula begins with a minus."""
         return bool(re.fullmatch("-[^-+]+", self.rank[0].strip()))
 
     @property
     def _shown(self) -> str:
-        """Its first formula, without the minus for greatest first."""
+        """Its first formula, without the minus of ``greatest_first``."""
         return self.rank[0].strip()[self.greatest_first :].strip()
 
     @property
@@ -115,7 +115,7 @@ class Category:
         return ("-" if amount < 0 else "") + seconds_text(round(abs(amount)))
 
     def is_far(self, value: float, first: float) -> bool:
-        """Whether a time is so much slower than the first that its run had another aim, such as gold.
+        """Whether a time is so far behind the first that its run had another aim, such as gold.
 
         >>> FASTEST.is_far(900, 344), FASTEST.is_far(60, 23), HIGHEST.is_far(900, 344)
         (True, False, False)
@@ -145,7 +145,7 @@ class BoardRules(NamedTuple):
     """What a board ranks, and how."""
 
     categories: tuple[Category, ...] = DEFAULT_CATEGORIES
-    name: str = ""  #: of the board, "" for none
+    name: str = ""  #: name of the board, "" for none
     unknown: str = PLAYED  #: the ladder of runs that do not say how they were made
 
 

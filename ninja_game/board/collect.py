@@ -111,7 +111,7 @@ class RunFolder:
             return SentFile(name, problem=reason(error))
 
     def stamp(self, name: str) -> list[int]:
-        """As ``file_stamp``; [] for a file so new that a change in the same moment would not show."""
+        """``file_stamp`` of a file; [] for one so new that a further change might not show."""
         now = file_stamp(f"{self.folder}/{name}")
         return now if now and time.time_ns() - max(now[1:3]) > SETTLED else []
 

@@ -103,7 +103,7 @@ budget_option = click.option(
 
 
 def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """A name that cannot be that of a level or run; usage error for another."""
+    """A file name that ends in .png, so never a level or run; else a usage error."""
     if value and not value.lower().endswith(".png"):
         raise click.BadParameter("expected a name that ends in .png", ctx, param)
     return value

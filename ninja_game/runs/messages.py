@@ -62,7 +62,7 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
 class MessageQueue:
-    """The messages of a level in play, shown one at a time: the present one, and those that wait for it.
+    """The messages of a level in play: the shown one, and those that wait for it.
 
     - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
     - ``helps``: the game gives advice too: to try again, to climb.
@@ -253,7 +253,7 @@ def late_text(moment: Heard) -> str:
 
 
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
-    """The messages that wait for others in the known run. One that follows another of its own moment is meant to."""
+    """Findings about messages that wait for others in the known run, except those after another of the same moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
     for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
         moment = message.when, message.number, message.cell

@@ -89,7 +89,7 @@ class DrawnGhost(Protocol):
         """Show the moment of the run after that many ticks."""
 
     def place(self, fraction: float) -> Point:
-        """Its place, px."""
+        """Its position in the level, px."""
 
 
 class LevelView:

@@ -351,7 +351,7 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 
 
 def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
-    """Rows of splits of the first, the fastest; gold that only others take is left out, all of it where too much."""
+    """Rows of splits of the fastest run, without gold that only others take; without any gold if rows are too many."""
     gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[0])
     if len(rows) > MAX_SPLITS:
         runs = [replace(run, splits=tuple(split for split in run.splits if split.event != gold)) for run in runs]

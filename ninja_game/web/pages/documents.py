@@ -159,7 +159,7 @@ class Documents:
             link = tag("a", f"{title}: {heading}" if heading else title, href=page_name + (anchor and f"#{anchor}"))
             start = " ".join(texts)[:160]
             entry = tag("li", link, tag("p", start, class_="faint"), data_place=len(self.searched))
-            # All words: ``tag`` would truncate a text.
+            # Not by ``tag``, which would truncate the text.
             self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
 
     def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:
@@ -281,7 +281,7 @@ def _add_anchors(tokens: list[Token]) -> Iterator[tuple[str, str]]:
 
 
 def _film(path: Path) -> dict[str, bytes]:
-    """The moving picture of the first page, every second picture of it, as WebP; and its middle as PNG."""
+    """Every second picture of the first page's film as WebP, and its middle picture as PNG."""
     from PIL import Image, ImageSequence
 
     film, still = BytesIO(), BytesIO()
@@ -296,7 +296,7 @@ def _film(path: Path) -> dict[str, bytes]:
 def _replace_paragraph(
     before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path
 ) -> None:
-    """Turn a paragraph of sources or an answer into a part that opens at a click; of a picture into that.
+    """Turn a paragraph of sources or an answer into a part that opens at a click, and one of a picture into a picture.
 
     ``links``: those in it, as written, relative to ``folder``, and their targets in the site.
     """
