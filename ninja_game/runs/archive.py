@@ -200,7 +200,7 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
 class Totals:
     """Counts of results; failed ones are not kept."""
 
-    recordings: int = 0  #: those that were simulated
+    recordings: int = 0  #: simulated recordings
     ticks: int = 0
     gold: int = 0
     failed: int = 0  #: runs that do not do what their file claims

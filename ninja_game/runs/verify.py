@@ -171,7 +171,7 @@ def with_demands(
 ) -> Verdict:
     """The verdict with the name of its level and with the demands on it beyond its own claims.
 
-    ``levels``: the names of the levels that count, by digest; ``episodes``: the keys of those that count;
+    ``levels``: names of the levels that count, by digest; ``episodes``: keys of the episodes that count;
     ``only_these``: a run on any other level is a problem; ``strict``: so is each field that differs from STRICT.
     """
     demanded = []

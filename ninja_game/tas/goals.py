@@ -52,12 +52,12 @@ class SearchedSpan:
 
     @cached_property
     def start(self) -> dict[str, float]:
-        """The ninja in front of the span."""
+        """The ninja's values before the first tick of the span."""
         return self._ninja(max(0, self.first - 1))
 
     @cached_property
     def end(self) -> dict[str, float]:
-        """The ninja at its end. Raises ArgumentError for a span that ends behind the run."""
+        """The ninja's values after the last tick. Raises ArgumentError for a span that ends after the run."""
         return self._ninja(self.last - 1)
 
     def places(self, first: int) -> NDArray[np.float64]:
@@ -175,8 +175,8 @@ GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": 
 def span_pieces(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
-    ``splits``: of the run, of the events in GOALS. If the run reaches the exit, the rest of it follows, and a span
-    without any event has two halves. The whole run comes first: it has the most to gain.
+    ``splits``: the run's events of GOALS. If the run reaches the exit, its rest follows the last piece, and a span
+    without an event has two halves. The whole run comes first: it has the most to gain.
     """
     first, pieces = span.first, list[RunPiece]()
     end, outcome = span.session.timeline.end

@@ -22,7 +22,7 @@ T = TypeVar("T")
 def next_option(options: Sequence[T], present: T, step: int = 1) -> T:
     """The next option, after the last one the first.
 
-    >>> following("abc", "c"), following("abc", "a", -1)
+    >>> next_option("abc", "c"), next_option("abc", "a", -1)
     ('a', 'c')
     """
     return options[(options.index(present) + step) % len(options)]

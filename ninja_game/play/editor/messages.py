@@ -505,7 +505,7 @@ class MessagesScreen(MenuScreen):
         theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
 
     def _draw_notes(self, surface: pygame.Surface, number: int) -> None:
-        """Beside and below the fields of a message: its number, what is wrong with it, and its letters."""
+        """Draw the number of a message, its problem, and the count of its letters around its fields."""
         theme, palette, message = self.theme, self.theme.palette, self.messages[number]
         row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
         theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
@@ -518,7 +518,7 @@ class MessagesScreen(MenuScreen):
             theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
 
     def _wrong(self, message: MessageRow) -> str:
-        """What is wrong with a message, "" if nothing is. An empty field is wrong only once OK was refused."""
+        """The problem of a message, "" if it has none. An empty field is one only after OK was refused."""
         field, problem = message.problem
         if message.unknown:
             return f"There is no {message.unknown}: the words are at the right"
@@ -589,7 +589,7 @@ class MessagesScreen(MenuScreen):
         return self._stages[*look, opened]
 
     def _things(self, stage: _Stage) -> Things:
-        """What a text should not cover, with the way of the known run once that is known."""
+        """Things that a text should not cover; the route of the known run too, as soon as it is there."""
         if answer := self._known.result:
             return answer[2]
         tagged = bool(arrow_targets(row.text for row in self.messages))
@@ -649,7 +649,7 @@ class MessagesScreen(MenuScreen):
         self.theme.text(surface, str(number + 1), x, y - 4.5, size=9, align="centre", colour=palette.background)
 
     def _things_of(self, message: MessageRow | None) -> list[Point]:
-        """What a message can be about, px: the gold, or the switches of its moment."""
+        """The objects that a message can be about, px: the gold, or the switches of its moment."""
         return things_of(self._draft, message.when) if message and message.when in _DETAILS else []
 
     def _parsed(self, message: MessageRow | None) -> LevelMessage | None:

@@ -173,7 +173,7 @@ class EditorSession:
 
     @property
     def reach(self) -> certify.Reach | None:
-        """What the ninja can reach from the pointer, or from its last place."""
+        """The reach of a ninja at the pointer, or at the pointer's last place."""
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
@@ -181,7 +181,7 @@ class EditorSession:
         self._start_asked = None
 
     def _follow_pointer(self) -> None:
-        """Search what can be reached from the pointer; the earlier result stays until then."""
+        """Search the reach from the pointer; the earlier result stays until the new one is there."""
         speed = certify.STARTS[self.start]
         if self._reaches.problem:
             self.app.notify(self._reaches.problem)
@@ -406,7 +406,7 @@ class EditorSession:
         self._show_tries()
 
     def _show_tries(self) -> None:
-        """Take the tests of the level as it is now; what died in another version may have met what is gone."""
+        """Show only tests of the present version of the level: others may have met objects that are gone."""
         self._tried_level = self.draft.level
         self.tries = self._tries.get(self.draft.level, ())
         self.last_death = certify.map_of(self.tries[-1:]).deaths

@@ -35,7 +35,7 @@ STAMP_TICKS = 14  # ticks from the exit contact to the stamp of the medal
 
 # After a pass the failed tries are shown together.
 TRIES_FROM = 40  # ticks after the exit contact
-TRIES_TICKS = 80  # of the show
+TRIES_TICKS = 80  # ticks for which they are shown
 MAX_TRIES = 24  # the newest are shown
 
 SLOW_TICK_MS = 100  # a tick in slow motion: a quarter of the speed

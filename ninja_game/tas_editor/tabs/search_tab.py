@@ -98,7 +98,7 @@ class SearchTab(Tab):
         with_rest = "What follows the goal in the run is played, too, and must still reach the exit"
         best = "Best is what reaches the goal first, or has the most or least of the value beside this"
         ways = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
-        #: Widgets with left, top, width and height, px; what is not above 0 is counted from the right, or from below.
+        #: Widgets with left, top, width, height, px; 0 or less counts from the right or lower edge.
         self._placed: tuple[tuple[Widget, Area], ...] = (
             (Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL), (-182, 4, 96, 18)),
             (Button(UNPLACED, "Presets", self.propose, size=SMALL, hint=common), (-82, 4, 78, 18)),
