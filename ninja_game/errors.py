@@ -1,7 +1,7 @@
-"""Everything this project raises on purpose.
+"""The errors that this project raises on purpose.
 
-One family, so that a caller can write ``except NinjaGameError`` and mean "the input or the request was bad, and the
-message says how to fix it". Anything else that escapes is a bug of ours.
+All are NinjaGameErrors: the input or the request was bad, and the message says how to fix it. Any other exception is a
+bug of ours.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def reason(error: BaseException) -> str:
 
 
 class ArgumentError(NinjaGameError, ValueError):
-    """An argument of the public API that is none of those it takes; says which are."""
+    """An argument that a function of the public API does not take; the message says which ones it takes."""
 
 
 class MissingExtraError(NinjaGameError, ImportError):
@@ -98,4 +98,4 @@ class PackError(FormatError):
 
 
 DAMAGED = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, NinjaGameError)
-"""What reading JSON raises that is not as the program wrote it."""
+"""The exceptions of reading JSON that was changed or damaged since the program wrote it."""

@@ -25,7 +25,7 @@ RUN_NUMBERS: dict[str, Callable[[Run], float]] = {
 }  # fmt: skip
 """The values of a run for formulas: ticks to the exit, gold, score (ticks), gold of the level, jumps, keys pressed."""
 
-_MAX_BYTES = 2**20  # of a ``board.toml``
+_MAX_BYTES = 2**20  # size of a ``board.toml``
 MAX_CATEGORIES = 12
 MAX_RANKS = 4  # most formulas that rank a category
 _MAX_NAME = 40
@@ -70,12 +70,12 @@ class Category:
 
     @cached_property
     def greatest_first(self) -> bool:
-        """Whether the greatest is first: its first formula begins with a minus."""
+        """Whether a greater value is better: its first formula begins with a minus."""
         return bool(re.fullmatch("-[^-+]+", self.rank[0].strip()))
 
     @property
     def _shown(self) -> str:
-        """Its first formula, without the minus for greatest first."""
+        """Its first formula, without the minus of ``greatest_first``."""
         return self.rank[0].strip()[self.greatest_first :].strip()
 
     @property
@@ -100,8 +100,10 @@ class Category:
     def decided_by(self, values: Sequence[float], best: Sequence[float]) -> str:
         """The criterion that decides against a run with the best first number.
 
-        >>> FASTEST.decided((40, -3), (40, -5)), Category("A", ("gold", "presses + jumps")).decided((0, 3), (0, 2))
-        ('same time, less gold', 'same value, by presses + jumps')
+        >>> FASTEST.decided_by((40, -3), (40, -5))
+        'same time, less gold'
+        >>> Category("A", ("gold", "presses + jumps")).decided_by((0, 3), (0, 2))
+        'same value, by presses + jumps'
         """
         rank = next(rank.strip() for rank, ours, theirs in zip(self.rank, values, best, strict=True) if ours != theirs)
         return f"same {self.unit.lower()}, " + _WORSE.get(rank, f"by {rank}")
@@ -113,9 +115,9 @@ class Category:
         return ("-" if amount < 0 else "") + seconds_text(round(abs(amount)))
 
     def is_far(self, value: float, first: float) -> bool:
-        """Whether a time is so much slower than the first that its run had another aim, such as gold.
+        """Whether a time is so far behind the first that its run had another aim, such as gold.
 
-        >>> FASTEST.far(900, 344), FASTEST.far(60, 23), HIGHEST.far(900, 344)
+        >>> FASTEST.is_far(900, 344), FASTEST.is_far(60, 23), HIGHEST.is_far(900, 344)
         (True, False, False)
         """
         return self.unit == "Time" and value > max(2 * first, first + _FAR_TICKS)
@@ -143,7 +145,7 @@ class BoardRules(NamedTuple):
     """What a board ranks, and how."""
 
     categories: tuple[Category, ...] = DEFAULT_CATEGORIES
-    name: str = ""  #: of the board, "" for none
+    name: str = ""  #: name of the board, "" for none
     unknown: str = PLAYED  #: the ladder of runs that do not say how they were made
 
 

@@ -27,7 +27,7 @@ from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 
-_MAX_BYTES = 2**20  # of a file: a hundred times a long run
+_MAX_BYTES = 2**20  # size of a file: a hundred times a long run
 
 SETTLED = 2 * 10**9  # nanoseconds until a file's time is certain to show a change
 
@@ -111,7 +111,7 @@ class RunFolder:
             return SentFile(name, problem=reason(error))
 
     def stamp(self, name: str) -> list[int]:
-        """As ``file_stamp``; [] for a file so new that a change in the same moment would not show."""
+        """``file_stamp`` of a file; [] for one so new that a further change might not show."""
         now = file_stamp(f"{self.folder}/{name}")
         return now if now and time.time_ns() - max(now[1:3]) > SETTLED else []
 

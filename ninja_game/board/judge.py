@@ -86,7 +86,7 @@ def judge(
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
     ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
-    of their files. ``memo``: what was found out before, of the same files, levels and rules; it is not simulated again.
+    of their files. ``memo``: results of earlier commands on the same files, levels and rules; they save simulations.
     ``decide``: writes decisions on these runs, of these files, into the ledger. ``confirm``: files whose runs wait no
     longer. ``unknown``: the ladder of runs that do not say how they were made, unless the keeper has decided.
     """
@@ -271,7 +271,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
     """A run with what only the ledger knows: it is confirmed, or near to one that may be gone.
 
-    ``owner``: the row of who did it first; that of its own file counts if several did it together.
+    ``owner``: the row of the player who was first; if several were first together, the row of its own file counts.
     """
     own = ledger.runs.get(run.key, {})
     row = own if own.get("way") == run.way else owner

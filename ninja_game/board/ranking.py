@@ -141,7 +141,7 @@ class Ranking:
     def side_by_side(self, level: str, most: int) -> tuple[Category, list[Run]]:
         """The first category of a level with runs, and its first runs: of both ladders in turn, played ones first.
 
-        Those that are far behind are left out: they take another route.
+        Runs far behind are left out: they take another route.
         """
         tables = self.tables[level]
         category = next(other for other in self.categories if any((ladder, other) in tables for ladder in self.ladders))

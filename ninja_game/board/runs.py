@@ -1,4 +1,4 @@
-"""The runs of a board: those that count, and those that do not, with the reason."""
+"""The runs of a board, counted and rejected ones, with the reason of the rejection."""
 
 from __future__ import annotations
 
@@ -123,11 +123,11 @@ class Run(Judged):
     folder: RunFolder = field(repr=False, compare=False)
     marks: tuple[str, ...] = ()  #: remarks for readers
     near: str = ""  #: the run that it nearly copies, a sentence
-    near_to: RunKey | None = None  #: that run, if it was compared now
-    untrusted: str = ""  #: where its player's other runs are from, a sentence, if it is from another folder
-    confirmed: bool = False  #: by the keeper, as no copy, and as by its player
+    near_to: RunKey | None = None  #: its key, if the runs were compared now
+    untrusted: str = ""  #: a sentence, if its player's other runs are from another folder
+    confirmed: bool = False  #: by the keeper: not a copy, and by its player
     again: bool = False  #: it was withdrawn, and is the first of its moment
-    taken: str = ""  #: where ``added`` is that of an older board, when this one took it in
+    taken: str = ""  #: when this board took it in, if ``added`` is the date of an older board
     derived: bool = False  #: near to a run of one of its ``origins``
 
     @cached_property
@@ -252,7 +252,7 @@ class Rejected:
 class ValidatedRuns:
     """All runs of a folder."""
 
-    runs: tuple[Run, ...]  #: those that count, in the order in which they were added
+    runs: tuple[Run, ...]  #: runs that count, in the order in which they were added
     rejected: tuple[Rejected, ...]  #: by file
     again: tuple[Rejected, ...] = ()  #: levels of episodes that repeat an earlier run by the same player, of kind OWN
     alike: Mapping[str, str] = field(default_factory=dict)  #: by player the earlier one with a similar name

@@ -165,7 +165,7 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
 
 
 def _category(ranking: Ranking, name: str | None) -> Category:
-    """The category of a name, or the only one with it as a part of its name; without one the first."""
+    """The category with this name, else the only one whose name contains it; None: the first."""
     if name is None:
         return ranking.categories[0]
     words, names = name.casefold(), {category.name.casefold(): category for category in ranking.categories}

@@ -103,7 +103,7 @@ budget_option = click.option(
 
 
 def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
-    """A name that cannot be that of a level or run; usage error for another."""
+    """A file name that ends in .png, so never a level or run; else a usage error."""
     if value and not value.lower().endswith(".png"):
         raise click.BadParameter("expected a name that ends in .png", ctx, param)
     return value
@@ -165,7 +165,6 @@ def choose(items: Sequence[N], what: str, path: Path, record: int | None) -> N:
 
 
 def load_level_option(path: Path | None) -> Level | None:
-    """The level that ``level_option`` names."""
     return choose_level(path, None).level if path else None
 
 

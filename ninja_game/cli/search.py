@@ -127,7 +127,7 @@ def improve(
     from ninja_game.tas.files import runs_of_level
 
     earlier = load_replays(output) if resume and output.exists() else []
-    protect_inputs(on=True)  # what was read of the output may be replaced
+    protect_inputs(on=True)  # from here on files that were read are protected, but not the output
     recording = options.choose(
         load_replays(replay, level=options.load_level_option(level_path)), "recordings", replay, record
     )

@@ -111,7 +111,7 @@ def verify(
 def _reported(
     results: Iterable[Result], totals: Totals, report: Path, files: Sequence[Path], stack: ExitStack
 ) -> Iterator[Result]:
-    """Results, written to a report as they pass. ``totals``: of those that have passed."""
+    """Pass results on, and write them to a report. ``totals``: of the results so far."""
     from ninja_game.files.writing import open_atomically
     from ninja_game.formats.links import is_link
     from ninja_game.runs.archive import write_report

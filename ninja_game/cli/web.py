@@ -213,7 +213,7 @@ def board(
 
 
 def _show_news(news: Sequence[tuple[bool, str]], sums: str) -> int:
-    """Print what has changed since an earlier board. ``news``: whether it may, and a line. FAILED: some may not."""
+    """Print changes since an earlier board; FAILED if some are not allowed. ``news``: whether it is, and a line."""
     for _, line in news:
         click.echo(line)
     click.echo(sums if news else f"nothing has changed: {sums}")

@@ -35,6 +35,8 @@ FAMILIES = tuple(
 """The families of tiles. Halves by quarter: left, upper, lower, right."""
 
 EMPTY, FULL = 0, 1
+TILE_KEYS = {EMPTY: "0", FULL: "9"}
+"""The keys of the tiles without a family."""
 
 _SHAPES = ("45° slope", "hollow curve", "round curve", "22° thin", "22° thick", "67° thin", "67° thick")
 _CORNERS = ("lower left", "lower right", "upper right", "upper left")
@@ -46,12 +48,6 @@ _TILE_NAMES = (
 
 def tile_name(tile: int) -> str:
     return _TILE_NAMES[tile] if tile in TILE_IDS else f"odd tile {tile}"
-
-
-def tile_key(tile: int) -> str:
-    if tile in (EMPTY, FULL):
-        return "09"[tile]
-    return next((f"{f.key} {QUARTERS[f.tiles.index(tile)].upper()}" for f in FAMILIES if tile in f.tiles), "")
 
 
 class ObjectType(NamedTuple):

@@ -285,7 +285,7 @@ class Certifier:
         if not compiled_available():
             self.certification = Certification(end=f"Certifying needs Numba: {install_hint('fast')}")
             return
-        # Of two known runs the shorter one comes last: the solver reports what is no longer than those before.
+        # The shorter of two known runs comes last: the solver reports a run only if it is no longer than those before.
         known = tuple(run.inputs for run in (before.gold_run, before.run) if run) or before.known
         began = before.began if waits else monotonic()
         self.certification = Certification(level, seconds=longer, began=began, known=known)
@@ -427,11 +427,11 @@ TOUCH = RADIUS + GOLD_RADIUS
 def place_before(
     draft: Draft, place: tuple[float, float], size: Cell = FRAME_SIZE, *, touch: bool = False
 ) -> tuple[float, float] | None:
-    """Where a test of what is said near a place begins, px; None: at the level's start.
+    """Where the test of a message near a place begins, px; None: at the level's start.
 
-    It is a cell beside the frame, nearer without room for that, with a floor and on the side of the start rather than
-    without; between walls it is below or above. A ninja that presses nothing lives there. If that is in the air, it is
-    rather the nearest floor from which the ninja gets into the frame, or, with ``touch``, to the place itself.
+    It is a cell beside the frame, or nearer if there is no room; between walls it is below or above. A ninja that
+    presses nothing lives there. Cells with a floor and on the side of the start are preferred. Instead of a cell in the
+    air it is the nearest floor from which the ninja gets into the frame, or, with ``touch``, to the place itself.
     ``size``: of the frame around the place, in cells.
     """
     column, row = cell_of(*place)
@@ -465,7 +465,7 @@ def place_before(
 def _floor_before(draft: Draft, place: tuple[float, float], reach: tuple[float, float]) -> tuple[float, float] | None:
     """The nearest floor from which one of a few jumps comes within ``reach`` px of a place, across and down.
 
-    Not nearer than two cells; None: there is none, as far as is looked.
+    It is two cells away or more; None: the search, which is bounded, found none.
     """
     column, row = cell_of(*place)
     cells = product(range(column - _AROUND, column + _AROUND + 1), range(row - 2, row + 2 * _AROUND))

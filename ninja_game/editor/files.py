@@ -330,11 +330,10 @@ class _Lines:
         matcher = SequenceMatcher(None, keys, [repr(spec) for spec in specs], autojunk=False)
         content: dict[int, list[ObjectSpec]] = {number: [] for number, _ in owners}
         touched: set[int] = set()
-        for _, i1, i2, j1, j2 in (code for code in matcher.get_opcodes() if code[0] == "equal"):
-            for i, j in zip(range(i1, i2), range(j1, j2), strict=True):
-                content[owners[i][0]].append(specs[j])
         for tag, i1, i2, j1, j2 in matcher.get_opcodes():
             if tag == "equal":
+                for (number, _), spec in zip(owners[i1:i2], specs[j1:j2], strict=True):
+                    content[number].append(spec)
                 continue
             touched |= {owners[i][0] for i in range(i1, i2)}
             within = i1 > 0 and i1 < len(owners) and owners[i1 - 1][0] == owners[i1][0]

@@ -31,7 +31,7 @@ _step: ContextVar[Step | None] = ContextVar("step", default=None)
 
 
 class Steps(list[Step]):
-    """The last dozen steps. ``root``: the player's folder, which keeps those that change only what is below it."""
+    """The last dozen steps. ``root``: the player's folder; steps that change only files below it are saved there."""
 
     def __init__(self, root: Path) -> None:
         super().__init__()
@@ -40,7 +40,7 @@ class Steps(list[Step]):
             self[:] = [self._step(*kept) for kept in json.loads(read_utf8(root / self._file))]
 
     def _keep(self) -> None:
-        """Keep the newest steps on the disk, as many as have room, back to one that leads elsewhere."""
+        """Save the newest steps, as many as have room, back to the first that changes files elsewhere."""
 
         def plain(value: Path | bytes) -> str:
             return value.decode("latin-1") if isinstance(value, bytes) else value.relative_to(self._root).as_posix()

@@ -1,4 +1,4 @@
-"""A pack made ready to share: certified, measured and linted, with its zip and its link."""
+"""Makes a pack ready to share: certified, measured and linted, as a zip and a link."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ninja_game.runtime import install_hint
 from ninja_game.sim.level import Level
 
 Say = Callable[[str, float | None], object]
-"""Gets the present work, and the finished share of it, None if unknown."""
+"""Gets a text about the present work, and its finished share (None: unknown)."""
 
 Obstacles = dict[tuple[Level, str], Finding]
 """By level and kind of certificate ("exit", "gold"): why the solver found no such run."""
@@ -31,7 +31,7 @@ _MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
 
 _CAUSES: dict[str, Sequence[str]] = dict.fromkeys(_MISSING, ("no-ninja", "no-exit"))
 _CAUSES |= {"no-exit": ("no-ninja",), "same-content": ("no-ninja",), "same-name": ("same-content",)}
-"""Codes of findings about a level, with those that they follow from."""
+"""Codes of findings about a level, with the codes of their causes."""
 
 _SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
 _GOALS = {"exit": "exit", "gold": "all gold"}
@@ -88,9 +88,9 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
 
 
 def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
-    """The findings about a pack, accepted or not; one about a run that a search did not find says why it did not.
+    """The findings about a pack, accepted or not; for a run that no search found, with the reason.
 
-    What follows from another of them is left out: such as a missing run with all gold where there is none to the exit.
+    Consequences of another finding are left out, such as a missing run with all gold if there is no run to the exit.
     """
     problems, no_exit = list[PackFinding](), set[Level]()
     for finding in findings(pack, with_gold=True):
@@ -151,7 +151,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
     begun, done, share = dict[str, float](), 0, 0.0
 
     def report(name: str, _: Progress) -> None:
-        """What is left goes by what the planned seconds took so far, of which the first are taken to go as planned."""
+        """Estimate the time left from the pace so far, as if the first seconds had gone as planned."""
         nonlocal share
         now = monotonic()
         begun.setdefault(name, now)

@@ -27,12 +27,14 @@ ObjectPart = tuple[int, int]
 
 
 class Stamp(NamedTuple):
+    """Tiles by cell, and objects, at the places where they would be drawn. Cells may be EMPTY."""
+
     tiles: Tiles
     objects: tuple[ObjectSpec, ...] = ()
 
     @property
     def solid(self) -> Stamp:
-        """It without its empty cells."""
+        """The stamp without its empty cells."""
         return self._replace(tiles={cell: tile for cell, tile in self.tiles.items() if tile != EMPTY})
 
     def carried(self, motion: Motion) -> Stamp:
@@ -205,7 +207,7 @@ def pasted(draft: Draft, stamp: Stamp, *, empty: bool = False) -> tuple[Draft, S
 def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
     """The centre for turning a selection, px, so that cells fall onto cells; ``quarter``: by a quarter turn.
 
-    If its middle is no such point, one beside it, to the right and to the left in turn: four turns are none.
+    If its middle is no such point, it is one to the right and to the left in turn: four turns change nothing.
     """
     if selection.area:
         column, row, columns, rows = selection.area
@@ -219,7 +221,7 @@ def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tupl
 
 
 def nearest_part(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
-    """The part of an object nearest to a point and within ``reach`` px of it; of equals the newest."""
+    """The part of an object nearest to a point, within ``reach`` px; the newest of equally near ones."""
     closest: ObjectPart | None = None
     best = reach * reach
     for number, spec in enumerate(draft.objects):
@@ -318,7 +320,7 @@ def covered(shape: str, a: Cell, b: Cell, bend: float) -> list[Cell]:
 
 
 def ramp_cells(cells: list[Cell]) -> list[Cell]:
-    """A line of cells with those beside slanted parts, so that consecutive cells share a side: two make a ramp."""
+    """A line of cells, doubled if it slants: two cells side by side make a ramp."""
     _, _, columns, rows = area_around(cells)
     dx, dy = (0, 1) if columns >= rows else (1, 0)
     return cells if 1 in (columns, rows) else [*cells, *((x + dx, y + dy) for x, y in cells)]
@@ -337,15 +339,15 @@ def ramp(a: Cell, b: Cell) -> Tiles:
     side = 1 if end[0] > x else -1
     if not down:
         return {}
-    # It goes down as far as its last cell, or below that where slopes alone fill its length.
+    # It ends at its last cell, or one row lower if slopes alone then fill its length.
     drops = down + (long <= 2 * down or long == 2 * down + 2)
-    tiles = {}
+    tiles, slopes = {}, _STEEP if steep else _GENTLE
     if drops == down:
         tiles[end] = FULL
         long -= 1
     for k in range(drops):
         run = long * (k + 1) // drops - long * k // drops
-        keys = ("1",) if run == 1 else _STEEP if steep else _GENTLE
+        keys = ("1",) if run == 1 else slopes
         for left in range(run, 0, -1):
             if left > 2:
                 tiles[x, y] = FULL
@@ -418,7 +420,7 @@ def rounded(columns: int, rows: int) -> Mapping[Cell, int]:
         choices: list[tuple[float, tuple[_Stretch, ...]]] = [(inf, ())]
         for stretch in _STRETCHES:
             x, y = at[0] + stretch.right, at[1] - stretch.up
-            # It begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
+            # The path begins upright in a middle row and ends flat in a middle column; no cell at its ends stays empty.
             last = x == width and stretch.up and (columns % 2 or not stretch.right)
             first = at[1] == height and stretch.right and (rows % 2 or not stretch.up)
             if x <= width and y >= 0 and stretch.begins <= heading and not (first or last):

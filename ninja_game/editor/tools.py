@@ -198,9 +198,13 @@ class EditorTools:
             objects = tuple(self.placed(*middle, "cell") for middle in middles)
             self._change(stamps.Stamp({} if self.draws_objects else dict.fromkeys(cells, self.tile), objects))
             return
-        many = not self.draws_objects or self.spec.kind in (GOLD, MINE)
-        drawn = Gesture(self.tool) if self.effective_tool in SHAPES else Gesture.DRAW if many else Gesture.DROP
-        self._gesture = Gesture.ERASE if erase else drawn
+        if erase:
+            self._gesture = Gesture.ERASE
+        elif self.effective_tool in SHAPES:
+            self._gesture = Gesture(self.tool)
+        else:
+            many = not self.draws_objects or self.spec.kind in (GOLD, MINE)
+            self._gesture = Gesture.DRAW if many else Gesture.DROP
         self.move(*self.pointer)
 
     def release(self) -> None:
@@ -244,10 +248,7 @@ class EditorTools:
 
     def pick(self) -> None:
         part = stamps.nearest_part(self.draft, *self.pointer, PICK_REACH)
-        if part:
-            self.pick_up(self.draft.objects[part[0]])
-        else:
-            self.pick_up(self.draft.tile(self.cell))
+        self.pick_up(self.draft.objects[part[0]] if part else self.draft.tile(self.cell))
 
     def pick_up(self, what: int | ObjectSpec) -> None:
         self.finish()

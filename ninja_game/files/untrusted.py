@@ -54,7 +54,7 @@ def _check_numbers(value: object) -> None:
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
 # Bytes of the index: the library's time grows with the square of the data beside a name.
-_MAX_ENTRY_BYTES = 512  # for each file
+_MAX_ENTRY_BYTES = 512  # per file
 _MAX_INDEX_BYTES = 2**23
 
 

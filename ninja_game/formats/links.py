@@ -224,10 +224,7 @@ def recording_link(recordings: Iterable[Recording]) -> str:
 
 
 def pack_link(texts: dict[str, str]) -> str:
-    """The link of a pack from its files by name: index, levels, par times, shortened certificates.
-
-    Raises LinkError.
-    """
+    """The link of a pack from its files by name: index, levels, par times, shortened certificates. Raises LinkError."""
     known = {name for name, text in texts.items() if is_replay(text) and "\nlevel-digest:" in text}
     short = {name: _LEFT_OUT.sub("", text) if name in known else text for name, text in texts.items()}
     return write_link("pack", [json.dumps(short, ensure_ascii=False, separators=(",", ":"))])

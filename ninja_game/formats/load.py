@@ -1,4 +1,4 @@
-"""Load any file, folder or link of levels or recordings, whatever its format."""
+"""Load levels or recordings from a file, a folder or a link in any format."""
 
 from __future__ import annotations
 

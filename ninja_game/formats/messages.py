@@ -112,7 +112,7 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
 def header_form(text: str) -> str:
     r"""How a file writes a text: in one line.
 
-    >>> in_a_header("Run,\nthen jump")
+    >>> header_form("Run,\nthen jump")
     'Run,\\nthen jump'
     """
     return _BREAK.join(line.strip() for line in text.strip().split("\n"))

@@ -1,4 +1,4 @@
-"""Gold is bait and suggests movements: around stones, along walls, in bows between ledges, a hoard in the vault."""
+"""Puts gold into a level, as bait and to suggest movements: around stones, along walls, in bows, in the vault."""
 
 from __future__ import annotations
 

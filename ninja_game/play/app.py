@@ -53,7 +53,7 @@ NOTICE_MS = 4000
 SWITCH_S = 0.0005
 """The longest that a thread of Python waits for another one, s: what works in the background, as a compiler, must not
 make the window slow."""
-WARNING_MS = 12_000  # for which a warning about the start of the game is shown
+WARNING_MS = 12_000  # how long a warning about the start of the game is shown
 
 
 TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]

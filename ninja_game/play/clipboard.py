@@ -1,4 +1,4 @@
-"""Texts and links into the clipboard, or into a file of the exports where there is none."""
+"""Copies texts and links to the clipboard; without a clipboard into a file in the folder ``exports``."""
 
 from __future__ import annotations
 

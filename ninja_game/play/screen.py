@@ -1,4 +1,4 @@
-"""What fills the window, the stack of it, and what goes on beside it."""
+"""The base of all screens, their stack, and work that continues under any screen."""
 
 from __future__ import annotations
 
@@ -93,6 +93,8 @@ class Aside:
 
 
 class ScreenStack:
+    """The open screens. The top one gets the events, and is told by ``enter`` and ``leave`` of the change."""
+
     def __init__(self) -> None:
         self._screens: list[BaseScreen] = []
 

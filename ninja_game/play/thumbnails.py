@@ -78,6 +78,8 @@ class Thumbnails:
 
 
 class ThumbnailScreen(MenuScreen):
+    """A menu with pictures of levels, drawn again as they become ready."""
+
     music = MENU
 
     def __init__(self, app: App) -> None:

@@ -326,6 +326,8 @@ class WorkspaceScreen(MenuScreen):
 
 
 class Document(Protocol):
+    """The level or run under edit in a workspace, with its file."""
+
     @property
     def name(self) -> str:
         """The document's name."""

@@ -43,10 +43,10 @@ from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.level import BODIES
 
 MAX_FILES = 4096
-MAX_BACKUP_BYTES = 256 * 2**20  # of all files, unpacked
+MAX_BACKUP_BYTES = 256 * 2**20  # size of all files, unpacked
 
-MAX_REPLAYS = 5_000  # in its records
-MAX_TABLE_ROWS = 100_000  # of any other table
+MAX_REPLAYS = 5_000  # rows of the table of replays
+MAX_TABLE_ROWS = 100_000  # rows of any other table
 
 BRANCHES = ".branches.json"  # suffix of a file beside a run: its branches in the TAS editor
 
@@ -64,8 +64,8 @@ act on some others by themselves, such as a ``desktop.ini``.
 MAX_LEVELS_BYTES = 16 * 2**20  # bytes of all levels of the replays: each is read, and its replay run again
 MAX_DRAFT_BYTES = 2**20  # bytes of a level under edit
 MAX_LEVEL_BYTES = 2**20  # bytes of the level of a replay
-MAX_REPLAY_TICKS = 10_000_000  # of all replays, which are run again
-_FEW_TICKS = 200_000  # that many are run before kernels would be ready
+MAX_REPLAY_TICKS = 10_000_000  # ticks of all replays, which are run again
+_FEW_TICKS = 200_000  # fewer ticks run on the plain memory, sooner than kernels are ready
 
 _SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
 

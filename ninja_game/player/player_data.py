@@ -61,7 +61,7 @@ class PlayerData:
         return self._store
 
     def newcomer(self) -> PlayerData:
-        """The same levels for a player without a name who has played nothing; results are not saved."""
+        """Data of a new player without a name, with the same levels; results are not saved."""
         store, settings = Store(None, "this is a preview"), self.settings.changed(name="")
         other = PlayerData(self.folder, store=store, catalogue=self.catalogue, settings=settings)
         other._is_maker = False
@@ -109,12 +109,12 @@ class PlayerData:
         return UNLOCKED if is_free else state
 
     def lock_of(self, entry: Entry) -> str:
-        """A sentence: why a level may not be played by itself yet; "" if it may. One rule for every screen."""
+        """Why a level may not be played by itself yet, as a sentence; "" if it may. Every screen uses this rule."""
         episode = self.catalogue.episode_of(entry)
         return self.lock_of_episode(episode) if episode else ""
 
     def lock_of_episode(self, episode: Episode) -> str:
-        """A sentence: why an episode may not be played yet; "" if it may."""
+        """Why an episode may not be played yet, as a sentence; "" if it may."""
         before = self.catalogue.preceding(episode)
         if before is None or self.episode_state(episode) != LOCKED:
             return ""
@@ -138,7 +138,7 @@ class PlayerData:
         return progress.reached(entry, mark) or certified or "Not passed yet"
 
     def own_certificate(self, entry: Entry) -> Replay | None:
-        """The certificate to the exit of a level that the player has made; lists ask in each picture."""
+        """The certificate to the exit of a level that the player has made. Lists ask it for every picture."""
         return self.catalogue.author_run(entry) if self._is_maker and self.catalogue.is_own(entry) else None
 
     @cached_property

@@ -216,6 +216,8 @@ class Played(NamedTuple):
 
 
 class Statistics:
+    """Counts of attempts, passes, deaths, ticks and gold by level, in the player's database."""
+
     def __init__(self, store: Store) -> None:
         self.store = store
 

@@ -86,10 +86,7 @@ SCHEMA = {name: f"CREATE TABLE {name} {columns}" for name, columns in _TABLES.it
 
 
 class OtherVersionError(Exception):
-    """The file was written by a newer game, or by one from before the first release.
-
-    ``age``: "newer" or "older".
-    """
+    """The file was written by a newer game, or by one from before the first release. ``age``: "newer" or "older"."""
 
     def __init__(self, version: int) -> None:
         self.age = "newer" if version > SCHEMA_VERSION else "older"

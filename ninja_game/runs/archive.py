@@ -35,6 +35,7 @@ from ninja_game.runs.chunks import (
     CheckpointLog,
     Chunk,
     Result,
+    VerifyOptions,
     chunks_in,
     results_as_text,
     results_from_text,
@@ -93,9 +94,8 @@ def verify_all(
     """
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
     names = {level_digest(named.level): named.name or f"{named.file}:{named.record}" for named in counting}
-    options = VerifyOptions(
-        memory, levels[0].level if len(levels) == 1 else None, (*names,) if levels or strict else None, budget
-    )
+    level = levels[0].level if len(levels) == 1 else None
+    options = VerifyOptions(memory, level, frozenset(names) if levels or strict else None, budget)
     for result in _verify_all(chain(chunks_in(paths, record), chunks), options, jobs, processes, cluster, resume):
         if isinstance(result, Unreadable):
             yield result
@@ -103,21 +103,6 @@ def verify_all(
             if episodes is None and result.episode:
                 episodes = episodes_of(data_folder("levels"))
             yield with_demands(result, names, episodes or (), only_these=bool(levels), strict=strict)
-
-
-@dataclass(frozen=True)
-class VerifyOptions:
-    """The arguments of ``verify_chunk``: all that results depend on besides their chunks."""
-
-    memory: str
-    level: Level | None
-    counting: tuple[str, ...] | None
-    budget: int
-
-    def context(self) -> str:
-        """A key of everything besides the chunk that results depend on; plain and compiled share one."""
-        level = level_digest(self.level) if self.level else ""
-        return json.dumps([self.memory == "both", level, self.counting and sorted(self.counting), self.budget])
 
 
 def _verify_all(
@@ -144,11 +129,8 @@ def _verify_all(
         pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
         all_jobs = chain(filter(None, (first, second)), batches)
         try:
-            if cluster:
-                done = _isolate_failing(pool, partial(_verify_as_text, options), all_jobs, results_from_text)
-            else:
-                done = _isolate_failing(pool, partial(_verify, options), all_jobs, lambda results, _: list(results))
-            yield from _record_results(done, log)
+            verify, read = (_verify_as_text, results_from_text) if cluster else (_verify, lambda results, _: results)
+            yield from _record_results(_isolate_failing(pool, partial(verify, options), all_jobs, read), log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
                 raise
@@ -177,11 +159,7 @@ def _with_log_key(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
 
 
 def _verify(options: VerifyOptions, job: _Job) -> list[list[Result]]:
-    counting = None if options.counting is None else frozenset(options.counting)
-    return [
-        [] if chunk.done else verify_chunk(chunk, options.memory, options.level, counting, options.budget)
-        for chunk in job
-    ]
+    return [[] if chunk.done else verify_chunk(chunk, options) for chunk in job]
 
 
 def _verify_as_text(options: VerifyOptions, job: _Job) -> str:
@@ -222,7 +200,7 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
 class Totals:
     """Counts of results; failed ones are not kept."""
 
-    recordings: int = 0  #: those that were simulated
+    recordings: int = 0  #: simulated recordings
     ticks: int = 0
     gold: int = 0
     failed: int = 0  #: runs that do not do what their file claims

@@ -13,7 +13,7 @@ its chunk done again.
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
@@ -27,6 +27,7 @@ from ninja_game.errors import DAMAGED, BudgetError, DemoError, FileError, Format
 from ninja_game.files.locking import lock
 from ninja_game.files.reading import IncludedFile, file_type, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import is_episode
 from ninja_game.levels.findings import RUN_WORDINGS, RunProblem
@@ -102,35 +103,46 @@ def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
     return replace(chunk, beside=included)
 
 
-def verify_chunk(
-    chunk: Chunk,
-    memory: str = "auto",
-    level: Level | None = None,
-    counting: Container[str] | None = None,
-    budget: int = RUN_BUDGET,
-) -> list[Result]:
+@dataclass(frozen=True)
+class VerifyOptions:
+    """All that the results of a chunk depend on besides it, mostly as for ``verify_recording``.
+
+    ``level``: what recordings that do not hold theirs are played on.
+    """
+
+    memory: str = "auto"
+    level: Level | None = None
+    counting: frozenset[str] | None = None
+    budget: int = RUN_BUDGET
+
+    def context(self) -> str:
+        """A key of these options; plain and compiled share one."""
+        level = level_digest(self.level) if self.level else ""
+        return json.dumps([self.memory == "both", level, self.counting and sorted(self.counting), self.budget])
+
+
+def verify_chunk(chunk: Chunk, options: VerifyOptions) -> list[Result]:
     """A verdict on every recording of a chunk, in order; what cannot be read is reported and stops nothing.
 
-    ``level``: what recordings that do not hold theirs are played on; the rest as for ``verify_recording``.
     Raises NinjaGameError where nothing can be judged.
     """
     if chunk.problem:
         return [Unreadable(chunk.problem)]
     with nullcontext() if chunk.beside is None else known_files(chunk.beside, no_more=True):
         if chunk.records:
-            recordings = recordings_of(chunk.records, chunk.file, level)
+            recordings = recordings_of(chunk.records, chunk.file, options.level)
         else:
-            recordings = recording_of_text(chunk.text, chunk.file, level, named=chunk.named)
+            recordings = recording_of_text(chunk.text, chunk.file, options.level, named=chunk.named)
         if is_episode(chunk.text):
             recordings = islice(recordings, chunk.first, chunk.first + 1)
-        return [_result(recording, memory, counting, budget) for recording in recordings]
+        return [_result(recording, options) for recording in recordings]
 
 
-def _result(recording: Recording | Unreadable, memory: str, counting: Container[str] | None, budget: int) -> Result:
+def _result(recording: Recording | Unreadable, options: VerifyOptions) -> Result:
     if isinstance(recording, Unreadable):
         return recording
     try:
-        return verify_recording(recording, memory, counting, budget)
+        return verify_recording(recording, options.memory, options.counting, options.budget)
     except BudgetError as error:
         return Unreadable(str(replace(error, option="")), error.option)
     except (DemoError, LevelError, OutOfRangeError, ReplayError) as error:
@@ -154,7 +166,8 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
             raise ValueError(f"{len(all_results)} answers to {len(chunks)} questions")
         for chunk, results in zip(chunks, all_results, strict=True):
             # A text that was found in a folder may hold only levels.
-            expected_count = 0 if chunk.done else 1 if chunk.problem else len(chunk.records) or int(chunk.named)
+            expected_count = 1 if chunk.problem else len(chunk.records) or int(chunk.named)
+            expected_count *= not chunk.done
             if len(results) != expected_count and (chunk.records or len(results) < expected_count):
                 raise ValueError(f"{len(results)} results of {expected_count}")
         return all_results

@@ -24,7 +24,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import RULES_VERSION
 
 _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
-"""A line of an ASCII level, neither of its header nor of its picture, with a comment."""
+"""A line with a comment in an ASCII level, outside of header and picture."""
 
 
 def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> Iterator[str]:
@@ -38,10 +38,10 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
     """A recording as a replay of today with its level; names, markers, how it was made stay. Raises as above.
 
-    One without a name gets that of the level inside. The one name in a record of N is its level's author: the player
+    One without a name gets the name of its level. The only name in a record of N is the author of its level: the player
     stays unknown.
 
-    If its claims are no longer true, it was edited: its text by hand, or its level.
+    If its claims are no longer true, its text or its level was edited, and it is marked as edited.
     """
     old, level, inputs = recording.replay, recording.level, recording.inputs
     name = old.name or old.level_name or recording.name
@@ -99,7 +99,7 @@ def by_player(recording: Recording, player: str) -> Recording:
 def on_level(recording: Recording, level: Level | None = None) -> Recording:
     """The inputs of a recording on a level; None: on its own level in its present state.
 
-    The same recording if that is the level of the recording, else one without claims.
+    The same recording if this is the level that it was made on, else one without claims.
     """
     moved = replace(recording, level=level or recording.level)
     digest, now = level_digest(recording.level), level_digest(moved.level)
@@ -125,7 +125,7 @@ def _without_claims(recording: Recording) -> Replay:
 
 
 def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None) -> str:
-    """All levels and recordings in texts as one level file of N; ``level``: of recordings without one.
+    """All levels and recordings in texts as one level file of N; ``level``: the level of recordings without one.
 
     ``texts``: names of files and their contents.
 

@@ -118,12 +118,12 @@ def clearance(run: RunTrace) -> NDArray[np.float64]:
     """Distance between the ninja and the nearest hazard, after each tick, px: (ticks,)."""
     nearest = np.full(len(run.ninja), np.inf)
     for column, kind in enumerate(run.kinds):
-        rows = run.objects[:, column]
-        deadly = rows["s"] == 1 if kind == "mine" else rows["s"] == GUNS[kind] if kind in GUNS else None
         if kind not in _RADII:
             continue
+        rows = run.objects[:, column]
+        deadly = rows["s"] == GUNS.get(kind, 1) if kind == "mine" or kind in GUNS else True
         space = np.hypot(run.ninja["x"] - rows["x"], run.ninja["y"] - rows["y"]) - RADIUS - _RADII[kind]
-        nearest = np.minimum(nearest, space if deadly is None else np.where(deadly, space, np.inf))
+        nearest = np.minimum(nearest, np.where(deadly, space, np.inf))
     return nearest
 
 

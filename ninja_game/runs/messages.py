@@ -19,18 +19,18 @@ from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import SLIDING
 from ninja_game.simulation import Simulation
 
-SHOWN_TICKS = 240  # for which a message is shown after its event
+SHOWN_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
-_FADE_TICKS = 20  # in which a message near a place fades at its end
+_FADE_TICKS = 20  # ticks in which a message near a place fades at its end
 _WAITS = {"at", "after"}  # moments that wait until what just happened was read
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
 
 AGAIN = "Stuck? {retry} starts the level over"
 # AGAIN is for players who are stuck, not for those who wait because a text says so.
-STILL_TICKS = 400  # for which the ninja is still
-QUIET_TICKS = 800  # since any text
-_AWAY = 2 * CELL  # from the start, px
+STILL_TICKS = 400  # ticks for which the ninja is still
+QUIET_TICKS = 800  # ticks since the last text
+_AWAY = 2 * CELL  # px from the start
 
 CLIMB = (
     "Hold %s, and press {jump} each time you touch the wall\n"
@@ -62,7 +62,7 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
 class MessageQueue:
-    """The messages of a level in play, shown one at a time: the present one, and those that wait for it.
+    """The messages of a level in play: the shown one, and those that wait for it.
 
     - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
     - ``helps``: the game gives advice too: to try again, to climb.
@@ -253,7 +253,7 @@ def late_text(moment: Heard) -> str:
 
 
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
-    """The messages that wait for others in the known run. One that follows another of its own moment is meant to."""
+    """Findings about messages that wait for others in the known run, except those after another of the same moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
     for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
         moment = message.when, message.number, message.cell

@@ -56,10 +56,7 @@ class Certificate:
 
 
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
-    """The certificate of a level file, or None.
-
-    Raises ReplayError, or another NinjaGameError, if it cannot be read.
-    """
+    """The certificate of a level file, or None. Raises ReplayError, or another NinjaGameError, if it cannot be read."""
     name = pack.certificate(file, kind)
     if name is None:
         return None

@@ -1,4 +1,4 @@
-"""What is odd about a level, with a run of it: nothing here needs NumPy, so that the editor starts without it."""
+"""Problems of a level and of a run of it. Nothing here needs NumPy, so that the editor starts without it."""
 
 from __future__ import annotations
 

@@ -114,15 +114,14 @@ def verify_in_slices(
     """As ``verify_recording``, but a generator: it pauses after each ``slice_work``, its value is the verdict."""
     if not isinstance(recording, Recording):
         raise ArgumentError(f"recording is {recording!r:.60}; expected a Recording: load_replays(path) reads them")
-    claimed = None if recording.replay.unclaimed else recording.replay
+    replay = recording.replay
+    claimed = None if replay.unclaimed else replay
     verdict = Verdict(
         recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),
-        level_name="", body=recording.body, rules=recording.replay.rules,
-        outcome=NOT_RUN, end_tick=-1, gold=0, score_ticks=None, ticks=0, xy_sha256="",
-        possible_by_keyboard=None, in_time=None,
-        practice=recording.replay.practice, complete=not recording.missing, made=str(recording.replay.made),
-        assisted=recording.replay.made.assisted, co_authors=", ".join(recording.replay.co_authors),
-        episode=recording.episode, lifetime=recording.lifetime,
+        level_name="", body=recording.body, rules=replay.rules, outcome=NOT_RUN, end_tick=-1, gold=0, score_ticks=None,
+        ticks=0, xy_sha256="", possible_by_keyboard=None, in_time=None, practice=replay.practice,
+        complete=not recording.missing, made=str(replay.made), assisted=replay.made.assisted,
+        co_authors=", ".join(replay.co_authors), episode=recording.episode, lifetime=recording.lifetime,
     )  # fmt: skip
     if counting is not None and verdict.level_digest not in counting:
         return verdict
@@ -136,7 +135,7 @@ def verify_in_slices(
                 inputs,
                 body=recording.body,
                 memory=plan,
-                digest=bool(recording.replay.digest),
+                digest=bool(replay.digest),
                 budget=budget,
                 slice_work=slice_work,
                 lifetime=recording.lifetime,
@@ -152,7 +151,7 @@ def verify_in_slices(
         problems.append(run_problem("not-passed", ending=_ending(recording, run)))
     if recording.episode and not run.in_time:
         problems.append(run_problem("out-of-time", lifetime=recording.lifetime, gold=run.gold))
-    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
+    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(replay.inputs))
     return replace(
         verdict,
         outcome=run.outcome,
@@ -172,7 +171,7 @@ def with_demands(
 ) -> Verdict:
     """The verdict with the name of its level and with the demands on it beyond its own claims.
 
-    ``levels``: the names of the levels that count, by digest; ``episodes``: the keys of those that count;
+    ``levels``: names of the levels that count, by digest; ``episodes``: keys of the episodes that count;
     ``only_these``: a run on any other level is a problem; ``strict``: so is each field that differs from STRICT.
     """
     demanded = []

@@ -41,7 +41,7 @@ BEAM_LEGS = (
 """Resolutions of the legs of a pass, in turn. No number below was tuned by an experiment on record."""
 BEAM_TICKS = 150_000
 BEAM_EXTRA = 20_000
-"""Most ticks of a leg, and the least that it continues after its first end."""
+"""Most ticks of a leg; least ticks that it still searches after its first end."""
 EXIT_FACTOR = 10
 """Factor by which the last leg, to the exit, may be longer."""
 BEAM_WIDTH = 40

@@ -271,10 +271,7 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
 
 
 class LocalSearch:
-    """Improves a run by random mutations.
-
-    ``inputs`` must reach the exit; ``gold``: pieces that a run must collect.
-    """
+    """Improves a run by random mutations. ``inputs`` must reach the exit; ``gold``: pieces that a run must collect."""
 
     def __init__(self, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
         self.start = start

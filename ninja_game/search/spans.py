@@ -64,6 +64,8 @@ def draw_settings(random: np.random.Generator) -> SpanSettings:
 
 
 class SpanSearches:
+    """Searches along one known run at a time, all in the memory of one Search. ``gold``: pieces to collect; 0: any."""
+
     def __init__(self, start: Start, heuristics: Heuristics, *, gold: int) -> None:
         self.gold = gold
         self._search = Search(start, heuristics, nodes=NODES, along=True)

@@ -11,9 +11,9 @@ from ninja_game.formats.replay.provenance import names_of_text
 
 @dataclass(frozen=True)
 class Contributions:
-    """What a run under edit is made of. ``edits``: number of edits of keys.
+    """The origins of the keys of a run under edit. ``edits``: number of edits of keys.
 
-    ``commands``: those whose searched keys were used; ``names``: other contributors.
+    ``commands``: searches whose keys were used, by command; ``names``: other contributors.
     """
 
     edits: int = 0
@@ -22,7 +22,7 @@ class Contributions:
 
     @classmethod
     def of(cls, recording: Recording) -> Self:
-        """Those of a run whose keys are used; an unknown author is named by the file."""
+        """The contributions of a run whose keys are used; an unknown author is named by the file."""
         replay = recording.replay
         return cls(0, replay.made.searches, names_of_text(", ".join((recording.begun_by, *replay.co_authors))))
 

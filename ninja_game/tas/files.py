@@ -33,9 +33,9 @@ from ninja_game.tas.tracks import Branches, InputTrack, branches_of_json
 
 @dataclass(frozen=True)
 class RunFile:
-    """The file of a run. ``path``: None without a file that may be replaced.
+    """The file of a run. ``path``: None if there is no file that may be replaced.
 
-    ``digest``: of that file's bytes; ``branches_digest``: of its branches'; ``track``: the file's content.
+    ``digest``, ``branches_digest``: of the bytes of the file and of the file of branches; ``track``: its content.
     """
 
     path: Path | None = None
@@ -115,7 +115,7 @@ def new_run(on: NamedLevel, track: InputTrack = NO_TICKS, body: Body = "circle")
 
 
 def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
-    """The file of a run in a journal: one that ``open_run`` would have given it, else none."""
+    """The file of a run in a journal, if ``open_run`` would give it this file; else none."""
     with suppress(OSError, NinjaGameError):
         if _written_by_us(read_bytes(path)):
             return RunFile(path, digest, branches_digest)
@@ -123,7 +123,7 @@ def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
 
 
 def open_recording(recording: Recording) -> OpenedRun:
-    """Open a loaded recording; without a file if that has changed since."""
+    """Open a loaded recording; without a file if the file has changed since."""
     with suppress(NinjaGameError, OSError):
         path = Path(recording.file)
         if path.is_file():
@@ -217,9 +217,9 @@ def unclaimed_replay(origin: Recording, track: InputTrack) -> Replay:
 
 
 def replay_of_track(origin: Recording, track: InputTrack) -> Replay:
-    """An input track as our replay: with claims, or without if keys or names behind its death must stay.
+    """An input track as our replay: with claims, or without if keys or names after its death must stay.
 
-    An exit or a death soon behind the last input, which the TAS editor shows, is included. Behind the exit nothing is
+    An exit or a death soon after the last input, which the TAS editor shows, is included. After the exit nothing is
     kept. Raises ArgumentError for a run without ticks.
     """
     unclaimed = unclaimed_replay(origin, track)
@@ -243,14 +243,14 @@ def replay_of_track(origin: Recording, track: InputTrack) -> Replay:
 
 
 def has_tail(track: InputTrack, ticks: int) -> bool:
-    """Whether an input track has keys, or names of ticks, behind the first ``ticks`` ticks."""
+    """Whether an input track has keys, or names of ticks, after its first ``ticks`` ticks."""
     return any(track.inputs[ticks:]) or any(marker.tick > ticks for marker in track.markers)
 
 
 def save_run(
     origin: Recording, track: InputTrack, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
 ) -> RunFile:
-    """Write an input track, and its branches and watched formulas beside it; its file.
+    """Write an input track, and its branches and watched formulas beside it; gives its file.
 
     Raises OccupiedError if that would replace another file, or one that has changed since it was read, unless
     ``replacing``; FileError, OSError if writing fails.

@@ -51,7 +51,7 @@ class SearchedSpan:
 
     @cached_property
     def end(self) -> dict[str, float]:
-        """The ninja at its end. Raises as ``places`` does."""
+        """The ninja's values after the last tick. Raises as ``places`` does."""
         tick, column = self.last - 1, self.session.timeline.column
         x, y = self.places(tick)[0].tolist()
         prev_x, prev_y, state, gold = (float(column(name)[tick]) for name in ("prev_x", "prev_y", "state", "gold"))
@@ -60,7 +60,7 @@ class SearchedSpan:
     def places(self, first: int) -> NDArray[np.float64]:
         """The ninja's places from tick ``first`` on to the span's end, (ticks, 2), px.
 
-        Raises ArgumentError for a span that ends behind the run.
+        Raises ArgumentError for a span that ends after the run.
         """
         timeline, tick = self.session.timeline, self.last - 1
         timeline.ensure(tick)
@@ -166,8 +166,8 @@ GOALS = {"gold-taken": "taken({})", "exit-opened": "opened({})", "lock-opened": 
 def span_pieces(span: SearchedSpan, splits: Sequence[Split]) -> list[RunPiece]:
     """The pieces of a span, from one piece of gold, switch or exit to the next; from the last one to the exit.
 
-    ``splits``: of the run, of the events in GOALS. If the run reaches the exit, the rest of it follows, and a span
-    without any event has two halves. The whole run comes first: it has the most to gain.
+    ``splits``: the run's events of GOALS. If the run reaches the exit, its rest follows the last piece, and a span
+    without an event has two halves. The whole run comes first: it has the most to gain.
     """
     first, pieces = span.first, list[RunPiece]()
     end, outcome = span.session.timeline.end

@@ -96,9 +96,9 @@ class TasSession:
 
     @property
     def tail_behind(self) -> str:
-        """The end behind which there are keys or names of ticks, "exit" or "dead"; "" without any.
+        """The end, "exit" or "dead", if keys or names of ticks follow it; else "".
 
-        Behind a death they prevent a replay with claims; behind an exit they are left out of it.
+        After a death they prevent a replay with claims; after an exit they are left out of the replay.
         """
         self.timeline.simulate(len(self.timeline))
         end, outcome = self.timeline.end

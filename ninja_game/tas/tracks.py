@@ -59,7 +59,7 @@ class InputTrack:
         return InputTrack(before + bytes(made) + bytes(after), self._markers_after(first, last, len(made)))
 
     def up_to(self, ticks: int) -> InputTrack:
-        """Its first ticks, with their markers and that of the tick behind them."""
+        """The first ticks, with their markers and the marker of the tick after them."""
         return InputTrack(self.inputs[:ticks], tuple(marker for marker in self.markers if marker.tick <= ticks))
 
     def _joined(self, tick: int, held: int) -> int:
@@ -85,7 +85,7 @@ class InputTrack:
         return self.replaced(first, last, keys)
 
     def named(self, tick: int, name: str) -> InputTrack:
-        """With another name for a tick, or a comment; '': without one. The run grows if it ends before the tick.
+        """This track with a tick named or commented ('': unnamed). It grows if it ends before the tick.
 
         Raises ReplayError for a name that replay texts cannot hold, ArgumentError for an impossible tick.
         """

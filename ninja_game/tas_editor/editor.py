@@ -59,7 +59,7 @@ class TasEditor:
         self.tab = "Values"  #: name of the tab to show
         #: The run that the lead is measured against; None: the chosen other one, else the run as it was opened
         self.against: InputTrack | None = None
-        self.hint = ""  #: of what is under the mouse, for the line below
+        self.hint = ""  #: text of the status line about the thing under the mouse
         self.leads: dict[int, int] = {}  #: ticks by which the run is ahead at each event of both runs, by its own tick
         #: Cursor and anchor when a run was edited, for undo
         self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()

@@ -66,9 +66,9 @@ def prepare(run: Recording) -> None:
 
 
 class OpeningScreen(Screen):
-    """A waiting screen until the rules are there; then the TAS editor, which ``make`` gives, replaces it.
+    """A waiting screen until the rules are loaded or compiled; then the result of ``make`` replaces it.
 
-    An error then is reported on the screen below, or raised without one: NinjaGameError, OSError.
+    A NinjaGameError or OSError of ``make`` is reported on the screen below, or raised if there is none.
     """
 
     def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:

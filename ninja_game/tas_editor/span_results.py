@@ -85,7 +85,7 @@ class SpanResults:
     def first_behind(self) -> int | None:
         """The first tick behind a result in the present run; None: it has changed, and no result fits.
 
-        The ticks that follow are those that the run had after its own moment at the goal.
+        From it on the run is as it was after it reached the goal itself.
         """
         inputs = self.editor.track.inputs
         for begin, behind in reversed(self._fitting):
@@ -188,11 +188,11 @@ class SpanResults:
         self._last_results, own = results, self.search.own
         if own is not None:
             self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
-        # Results of a whole run are those that no other beats.
+        # A RunSearch already gives all results that no other one beats.
         before = () if isinstance(self.search, RunSearch) else self.better
         better = [
             run
-            for run in (*results, *before)  # of equal ones the tidy one
+            for run in (*results, *before)  # new ones first: they may be tidier
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
@@ -257,11 +257,11 @@ class SpanResults:
 
     @property
     def advice(self) -> str:
-        """What the nearest miss lacks, and what to try; "" while there is something better."""
+        """What the nearest miss lacks, and what to try; "" if there is a result."""
         miss = next((result for result in self.better if result.missed_by is not None), None)
         if miss is None:
             return ""
-        # Only what is named is played: nearer misses come often while a search runs.
+        # A miss is simulated only if its end is shown: nearer misses come often during a search.
         to_exit = miss.missed_by == 0.0 or "won" in self.task.goal
         last, ending = self.task.first + miss.ticks - 1, self.shown_run(miss).ending if to_exit else ""
         if miss.missed_by == 0.0:

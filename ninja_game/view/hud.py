@@ -23,7 +23,7 @@ _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # left end and middle, px
 _BAR_LENGTH = 630.0  # px, for the lifetime at a level's start or more
 _WARNING_TICKS = 1800  # below this lifetime the time bar turns red
 _LAST_TICKS = 800  # below this lifetime a text warns
-_MARK_SIZE = 12.0  # of a medal on the time bar, px
+_MARK_SIZE = 12.0  # px, a medal on the time bar
 
 _FOOT_SIZE = 11.0  # letters of the lines in the borders
 _FOOT_WIDTH = 744.0  # px

@@ -39,8 +39,8 @@ SHAKE = 9.0  # greatest shake by an explosion at the ninja, px
 SHAKE_KEPT = 0.78  # share of the shake that is left a tick later
 SHAKE_REACH = 200.0  # px from an explosion to where it does not shake
 
-DANCE_TICKS = 36  # for which the ninja dances before its exit
-ENTER_TICKS = 10  # in which it steps through the exit
+DANCE_TICKS = 36  # ticks for which the ninja dances before its exit
+ENTER_TICKS = 10  # ticks in which it steps through the exit
 DOOR_STEP = 2.0  # px from the exit's middle down to where it stands
 
 CUE_ABOVE = 24.0  # height of a mark over its source, px
@@ -89,7 +89,7 @@ class DrawnGhost(Protocol):
         """Show the moment of the run after that many ticks."""
 
     def place(self, fraction: float) -> Point:
-        """Its place, px."""
+        """Its position in the level, px."""
 
 
 class LevelView:

@@ -1,1 +1,1 @@
-"""The game in a browser: its site, and the code of the page."""
+"""The game in a browser: its site, the code of its page, and the pages of boards."""

@@ -1,4 +1,4 @@
-"""Run a reader's program in a page, by the page's own Python: its output, or its error."""
+"""Run a reader's program in the Python of the page; gives its output or its error."""
 
 from __future__ import annotations
 

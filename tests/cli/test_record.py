@@ -122,11 +122,11 @@ def test_demos_go_to_inputs_of_tools_and_back(form: str, suffix: str, tmp_path: 
 
 
 def test_an_included_file_is_sent_along_to_other_machines(idea: Path) -> None:
-    from ninja_game.runs.chunks import chunks_in, self_contained, verify_chunk
+    from ninja_game.runs.chunks import VerifyOptions, chunks_in, self_contained, verify_chunk
 
     (idea.parent / "part.txt").write_text("R*50\n")
     idea.write_text(LOOSE.replace("R*50", "include part.txt"))
     (chunk,) = map(self_contained, chunks_in([idea]))
     (idea.parent / "part.txt").unlink()
-    (verdict,) = verify_chunk(chunk)
+    (verdict,) = verify_chunk(chunk, VerifyOptions())
     assert getattr(verdict, "outcome", verdict) == "exit"

@@ -32,6 +32,7 @@ from ninja_game.runs.chunks import (
     CheckpointLog,
     Chunk,
     Result,
+    VerifyOptions,
     chunks_in,
     result_from_data,
     results_from_text,
@@ -78,7 +79,7 @@ def archive(tmp_path: Path) -> Path:
 
 def expected(archive: Path) -> list[Result]:
     """The results, one worker, nothing fancy."""
-    return [result for chunk in chunks_in([archive]) for result in verify_chunk(chunk, "plain")]
+    return [result for chunk in chunks_in([archive]) for result in verify_chunk(chunk, VerifyOptions("plain"))]
 
 
 def test_nothing_stops_the_rest(archive: Path) -> None:
@@ -339,7 +340,7 @@ def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
     run.write_text(replay_of_walk(level=None, level_path="levels/walk.txt"))
     (chunk,) = map(self_contained, chunks_in([run]))
     level.unlink()
-    (verdict,) = verify_chunk(chunk, "plain")
+    (verdict,) = verify_chunk(chunk, VerifyOptions("plain"))
     assert getattr(verdict, "good", verdict) is True
 
 
@@ -403,11 +404,11 @@ def test_a_piece_for_another_machine_holds_every_file_that_it_takes_in(tmp_path:
     (tmp_path / "part.tas").write_text("  60,R\n")
     level = parse_level(WALK)
     found = list(chunks_in([tmp_path / "a.tas", tmp_path / "b.tas"]))
-    here = [verify_chunk(chunk, "plain", level) for chunk in found]
+    here = [verify_chunk(chunk, VerifyOptions("plain", level)) for chunk in found]
     sent = pickle.dumps([self_contained(chunk, level) for chunk in found])
     for path in tmp_path.iterdir():
         path.unlink()
-    assert [verify_chunk(chunk, "plain", level) for chunk in pickle.loads(sent)] == here
+    assert [verify_chunk(chunk, VerifyOptions("plain", level)) for chunk in pickle.loads(sent)] == here
     assert [getattr(each, "outcome", None) for (each,) in here] == [None, "exit"]
 
 
@@ -415,7 +416,9 @@ def test_a_text_that_reads_what_was_not_put_inside_is_refused(tmp_path: Path) ->
     (tmp_path / "a.tas").write_text("Read,part\n")
     (tmp_path / "part.tas").write_text("  60,R\n")
     (chunk,) = chunks_in([tmp_path / "a.tas"])
-    (result,) = verify_chunk(replace(chunk, beside={"another.tas": IncludedFile("x", "1")}), "plain", parse_level(WALK))
+    (result,) = verify_chunk(
+        replace(chunk, beside={"another.tas": IncludedFile("x", "1")}), VerifyOptions("plain", parse_level(WALK))
+    )
     assert isinstance(result, Unreadable)
     assert "was not read before" in result.message
 

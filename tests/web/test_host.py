@@ -50,7 +50,7 @@ import boot, js
 boot.start(js.host)
 done = []
 boot.app().advance, boot.app().draw = lambda ms: done.append("time"), lambda: done.append("picture")
-for boot.LONG in (-1, -1, -1, 1e9):
+for boot.LONG_TURN in (-1, -1, -1, 1e9):
     boot.turn(boot._Game.last)
 json.dumps(done)
 """

@@ -48,6 +48,7 @@ from ninja_game.player.store import Store
 from ninja_game.runs.chunks import (
     CheckpointLog,
     Chunk,
+    VerifyOptions,
     chunks_in,
     results_as_text,
     results_from_text,
@@ -181,7 +182,7 @@ def _verified(path: Path) -> None:
     # One unreadable record hides no long run in the others.
     if sum(each.ticks for each in recordings_in([path]) if isinstance(each, Recording)) <= MAX_TICKS:
         for chunk in map(self_contained, chunks_in([path])):
-            results = verify_chunk(chunk, "plain")
+            results = verify_chunk(chunk, VerifyOptions("plain"))
             _same("results", results_from_text(results_as_text([results]), [chunk]), [results])
 
 

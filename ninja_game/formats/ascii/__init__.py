@@ -1,1 +1,1 @@
-"""The readable text format of levels."""
+"""The readable text format of levels (docs/level-format.md)."""

@@ -1,4 +1,4 @@
-"""Any level as ASCII text: drawn if possible, listed if order or parameters need it, and equal when read back."""
+"""Any level as ASCII text: drawn where a picture suffices, else listed too. Reading it gives an equal level."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Replays as text, and notations of inputs."""
+"""Replays as text, and notations of inputs (docs/replay-format.md)."""

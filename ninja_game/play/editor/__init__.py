@@ -1,1 +1,1 @@
-"""The editor in the window."""
+"""The level editor in the window; what it does to a level is in ``ninja_game.editor``."""

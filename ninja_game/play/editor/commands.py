@@ -11,7 +11,7 @@ from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.certify import lead_in, place_before, with_ninja_at
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
-from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
+from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS
@@ -104,18 +104,31 @@ class EditorCommands(DocumentCommands):
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
-        tools = self.session.tools
+        tools, steps = self.session.tools, self._steps()
         if name in TOOLS:
             tools.finish()
             tools.tool = name
-        elif name.startswith("snap_"):
-            tools.snap = next_option(list(SNAPS), tools.snap) if name == "snap_next" else name[5:]
+        elif name in steps:
+            actions, now = steps[name]
+            actions[next_option(list(actions), now)]()
         else:
             self._table()[name]()
+
+    def _steps(self) -> dict[str, tuple[dict[str, Action], str]]:
+        """The steps of the commands that go on to the next one, by their names, and the present step."""
+        tools, view, mirrors = self.session.tools, self.view, _MIRRORS
+        return {
+            "next_tool": ({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
+            "takes": ({what: partial(tools.take, what) for what in TAKES}, tools.takes),
+            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[tools.symmetry]),
+            "grid": ({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
+            "snap_next": ({snap: partial(setattr, tools, "snap", snap) for snap in SNAPS}, tools.snap),
+        }
 
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
+            **{f"snap_{snap}": partial(setattr, tools, "snap", snap) for snap in SNAPS},
             "help": lambda: self.app.push(HelpPage(self.app, "The editor", _HELP, EDITOR_COMMANDS.commands)),
             "menu": self.menu, "file": self.file_menu, "more": self.more,
             "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
@@ -123,14 +136,10 @@ class EditorCommands(DocumentCommands):
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
             "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
-            "takes": lambda: tools.take(next_option(TAKES, tools.takes)),
             "choose_all": tools.choose_all, "delete": tools.delete,
-            "next_tool": lambda: self.run(next_option(TOOLS, tools.tool)),
             "swap": lambda: tools.pick_up(tools.tile if tools.draws_objects else tools.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
             "turn": lambda: view.turn(CLOCKWISE),
-            "symmetry": lambda: self.mirror(next_option(list(SYMMETRIES), tools.symmetry)),
-            "grid": lambda: view.show_grid(next_option(GRIDS, view.grid)),
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
@@ -166,8 +175,7 @@ class EditorCommands(DocumentCommands):
         change: list[MenuRow] = [(path.stem, partial(self._change_stamp, path), short_path(path)) for path in files]
         if files:
             menu = StampMenu(self.app, "Rename or delete which stamp?", files, [*change, CANCEL])
-            ask = partial(self.app.push, menu)
-            rows.append(("Rename or delete...", ask, ""))
+            rows.append(("Rename or delete...", partial(self.app.push, menu), ""))
         self.app.push(StampMenu(self.app, "Stamps", files, [*rows, CANCEL]))
 
     def _change_stamp(self, path: Path) -> None:
@@ -206,16 +214,10 @@ class EditorCommands(DocumentCommands):
 
     def choose(self, name: str, button: Area) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
-        tools, view = self.session.tools, self.view
-        steps: dict[str, dict[str, Action]] = {
-            "symmetry": {_MIRRORS[symmetry]: partial(self.mirror, symmetry) for symmetry in SYMMETRIES},
-            "grid": {grid.name: partial(view.show_grid, grid) for grid in GRIDS},
-            "snap_next": {snap: partial(setattr, tools, "snap", snap) for snap in SNAPS},
-        }
-        rows: list[MenuRow] = [(label[0].upper() + label[1:], do, "") for label, do in steps.get(name, {}).items()]
-        if rows:
-            now = {"symmetry": _MIRRORS[tools.symmetry], "grid": view.grid.name, "snap_next": tools.snap}[name]
-            self.app.push(DropDown(self.app, button, rows, at=list(steps[name]).index(now)))
+        if name in (steps := self._steps()):
+            actions, now = steps[name]
+            rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in actions.items()]
+            self.app.push(DropDown(self.app, button, rows, at=list(actions).index(now)))
         else:
             self.run(name)
 
@@ -239,11 +241,9 @@ class EditorCommands(DocumentCommands):
         view, count = self.view, len(self.session.tries)
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
-        if not view.tests:
-            what = ""
-        elif not count:
+        if not count:
             what = "No tests yet: F5 plays the level"
-        view.hint = what
+        view.hint = what if view.tests else ""
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
@@ -359,12 +359,8 @@ class EditorCommands(DocumentCommands):
         def ask() -> None:
             self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
 
-        choose_place = (
-            "Test with the ninja at a click",
-            ask,
-            f"Key at the pointer: {key_text(EDITOR_COMMANDS.by_name['test_here'])}",
-        )
-        commands = map(EDITOR_COMMANDS.by_name.__getitem__, IN_MORE)
+        here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("test_here", *IN_MORE))
+        choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
         self.app.push(Menu(self.app, "More", [choose_place, *rows, CANCEL]))
 
@@ -574,13 +570,7 @@ class TryScreen(LevelScreen):
     music = SILENCE
 
     def __init__(
-        self,
-        app: App,
-        session: EditorSession,
-        level: Level,
-        says: str,
-        there: Entry | None,
-        begun: Begun = NOTHING_BEGUN,
+        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun
     ) -> None:
         title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
         named = NamedLevel(title, "", "", level, "", says=says)

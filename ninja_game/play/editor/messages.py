@@ -12,6 +12,7 @@ from math import dist
 import pygame
 
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     ALL_GOLD,
@@ -110,9 +111,6 @@ GRIP = 9.0
 _BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
-CellFrame = tuple[int, int, int, int]
-"""Left column, upper row, number of columns and of rows."""
-
 
 @dataclass(eq=False)
 class MessageRow:
@@ -179,12 +177,7 @@ def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[int, int]:
     return on_upright * (1 if across > 0 else -1), on_level * (1 if down > 0 else -1)
 
 
-def _between(one: Cell, other: Cell) -> CellFrame:
-    (left, right), (top, bottom) = sorted((one[0], other[0])), sorted((one[1], other[1]))
-    return left, top, right - left + 1, bottom - top + 1
-
-
-def _with_edge_at(frame: CellFrame, edges: tuple[int, int], cell: Cell) -> CellFrame:
+def _with_edge_at(frame: CellArea, edges: tuple[int, int], cell: Cell) -> CellArea:
     """A frame with some of its edges at a cell; those opposite stay."""
     left, top, columns, rows = frame
     first, last = [left, top], [left + columns - 1, top + rows - 1]
@@ -193,10 +186,10 @@ def _with_edge_at(frame: CellFrame, edges: tuple[int, int], cell: Cell) -> CellF
             first[axis] = cell[axis]
         elif edge > 0:
             last[axis] = cell[axis]
-    return _between((first[0], first[1]), (last[0], last[1]))
+    return area_between((first[0], first[1]), (last[0], last[1]))
 
 
-def _moved(frame: CellFrame, begin: Cell, cell: Cell) -> CellFrame:
+def _moved(frame: CellArea, begin: Cell, cell: Cell) -> CellArea:
     return frame[0] + cell[0] - begin[0], frame[1] + cell[1] - begin[1], *frame[2:]
 
 
@@ -269,7 +262,7 @@ class MessagesScreen(MenuScreen):
         self._row_widgets: list[list[Widget]] = []
         self._refused = False
         self._drag_begin: Cell = NO_CELL
-        self._dragged_frame: Callable[[Cell], CellFrame] | None = None  #: the frame for the pointer's cell
+        self._dragged_frame: Callable[[Cell], CellArea] | None = None  #: the frame for the pointer's cell
 
     @property
     def source(self) -> str:
@@ -398,11 +391,11 @@ class MessagesScreen(MenuScreen):
         elif selected and selected.when == "at":
             if is_inside(cell_of(*at)):
                 self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else FRAME_SIZE).frame)
-                self._dragged_frame = partial(_between, cell)
+                self._dragged_frame = partial(area_between, cell)
         elif selected and not named and away >= near:
             self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
 
-    def _put_frame(self, frame: CellFrame) -> None:
+    def _put_frame(self, frame: CellArea) -> None:
         """Give the selected message a frame, if its middle is inside the level."""
         left, top, columns, rows = frame
         cell, size = (left + columns // 2, top + rows // 2), (min(columns, COLUMNS), min(rows, ROWS))
@@ -512,7 +505,7 @@ class MessagesScreen(MenuScreen):
         theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
 
     def _draw_notes(self, surface: pygame.Surface, number: int) -> None:
-        """Beside and below the fields of a message: its number, what is wrong with it, and its letters."""
+        """Draw the number of a message, its problem, and the count of its letters around its fields."""
         theme, palette, message = self.theme, self.theme.palette, self.messages[number]
         row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
         theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
@@ -525,7 +518,7 @@ class MessagesScreen(MenuScreen):
             theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
 
     def _wrong(self, message: MessageRow) -> str:
-        """What is wrong with a message, "" if nothing is. An empty field is wrong only once OK was refused."""
+        """The problem of a message, "" if it has none. An empty field is one only after OK was refused."""
         field, problem = message.problem
         if message.unknown:
             return f"There is no {message.unknown}: the words are at the right"
@@ -596,7 +589,7 @@ class MessagesScreen(MenuScreen):
         return self._stages[*look, opened]
 
     def _things(self, stage: _Stage) -> Things:
-        """What a text should not cover, with the way of the known run once that is known."""
+        """Things that a text should not cover; the route of the known run too, as soon as it is there."""
         if answer := self._known.result:
             return answer[2]
         tagged = bool(arrow_targets(row.text for row in self.messages))
@@ -613,7 +606,8 @@ class MessagesScreen(MenuScreen):
 
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
         parsed, moment = self._parsed(message), self._heard(message)
-        spot = moment.spot if moment else None if parsed else self._eye(message)
+        spot = None if parsed else self._eye(message)
+        spot = moment.spot if moment else spot
         place = parsed and parsed.place
         layout = self._draft.level.tiles, self._things(stage), place, spot
         return placed_message(text, *layout, of_start=message.when == "start") if text else None
@@ -655,7 +649,7 @@ class MessagesScreen(MenuScreen):
         self.theme.text(surface, str(number + 1), x, y - 4.5, size=9, align="centre", colour=palette.background)
 
     def _things_of(self, message: MessageRow | None) -> list[Point]:
-        """What a message can be about, px: the gold, or the switches of its moment."""
+        """The objects that a message can be about, px: the gold, or the switches of its moment."""
         return things_of(self._draft, message.when) if message and message.when in _DETAILS else []
 
     def _parsed(self, message: MessageRow | None) -> LevelMessage | None:

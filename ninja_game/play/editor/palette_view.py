@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from math import dist
 from typing import NamedTuple
@@ -171,7 +171,7 @@ PaletteEntry = int | brush.ObjectType
 
 _FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
 _ENTRY_OF_KEY: dict[str, PaletteEntry] = {
-    **{brush.tile_key(tile): tile for tile in (brush.EMPTY, brush.FULL)},
+    **{key: tile for tile, key in brush.TILE_KEYS.items()},
     **{f"shift+{object_type.key}": object_type for object_type in brush.OBJECT_TYPES},
 }
 
@@ -245,8 +245,11 @@ class PaletteView(Widget):
     def click(self, x: float, y: float) -> bool:
         entry = self._at(x, y)
         if entry is not None:
-            self.tools.pick_up(entry.spec if isinstance(entry, brush.ObjectType) else entry)
+            self._take(entry)
         return True
+
+    def _take(self, entry: PaletteEntry) -> None:
+        self.tools.pick_up(entry.spec if isinstance(entry, brush.ObjectType) else entry)
 
     def hover(self, x: float, y: float) -> None:
         self.hovered = self._at(x, y)
@@ -256,12 +259,9 @@ class PaletteView(Widget):
         tools = self.tools
         if tools.bend(by):
             return
-        if tools.draws_objects:
-            place = brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(tools.spec))
-            tools.pick_up(brush.OBJECT_TYPES[(place + by) % len(brush.OBJECT_TYPES)].spec)
-        else:
-            place = TILE_ORDER.index(tools.tile) if tools.tile in TILE_ORDER else 0
-            tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])
+        entries: Sequence[PaletteEntry] = brush.OBJECT_TYPES if tools.draws_objects else TILE_ORDER
+        place = entries.index(self._in_hand) if self._in_hand in entries else 0
+        self._take(entries[(place + by) % len(entries)])
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         canvas, palette = theme.canvas, theme.palette
@@ -284,8 +284,8 @@ class PaletteView(Widget):
             if isinstance(entry, brush.ObjectType):
                 below = area[0] + OBJECT / 2 - 2.5, area[1] + OBJECT
                 self._draw_key(surface, theme, entry.key, below)
-            if entry in (brush.EMPTY, brush.FULL):
-                self._draw_key(surface, theme, brush.tile_key(entry), (area[0] - 9, area[1] + 4))
+            elif entry in brush.TILE_KEYS:
+                self._draw_key(surface, theme, brush.TILE_KEYS[entry], (area[0] - 9, area[1] + 4))
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if entry == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)

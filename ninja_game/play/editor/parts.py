@@ -326,12 +326,17 @@ class ToolButton(Button):
 
 
 class EditorPart(Pane):
+    ground: tuple[str, Area] | None = None  #: what it is drawn on: a colour of the palette, and where
+
     def __init__(self, view: EditorView) -> None:
         self.view = view
         self.session: EditorSession = view.session
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
+        if self.ground:
+            colour, area = self.ground
+            theme.canvas.fill_rect(surface, getattr(theme.palette, colour), *area, 3)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """Show the hint of the button under the mouse in the status line; the widgets do the rest."""
@@ -364,6 +369,7 @@ class Toolbar(EditorPart):
 
 class PalettePart(EditorPart):
     area = LAYOUT.palette
+    ground = "panel", (612, 26, 178, 231)
 
     def __init__(self, view: EditorView, palette: PaletteView, run: Callable[[str], object]) -> None:
         super().__init__(view)
@@ -380,7 +386,6 @@ class PalettePart(EditorPart):
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
         x, y, w, h = self.area
-        theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 4, h, 3)
         theme.text(surface, self._palette.label, x + 5, y + h - 13, size=8, width=w - 83, height=13)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
@@ -397,6 +402,7 @@ class PalettePart(EditorPart):
 
 class Properties(EditorPart):
     area = LAYOUT.properties
+    ground = "background", (612, 257, 176, 224)
 
     def __init__(self, view: EditorView) -> None:
         super().__init__(view)
@@ -416,16 +422,12 @@ class Properties(EditorPart):
         spec = tools.chosen or tools.spec
         return self._subject, tools.tile, spec, tools.selection, tools.slopes, tools.spacing, tools.nearest
 
-    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        super().paint(surface, theme)
-        x, y, w, h = self.area
-        theme.canvas.fill_rect(surface, theme.palette.background, x + 2, y, w - 6, h - 7, 3)
-
 
 class Findings(EditorPart):
     """The findings about the level. ``go_to``: called with the number of a finding."""
 
     area = LAYOUT.findings
+    ground = "panel", LAYOUT.findings
 
     def __init__(self, view: EditorView, go_to: Callable[[int], object]) -> None:
         super().__init__(view)
@@ -450,10 +452,6 @@ class Findings(EditorPart):
             self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, width, 9.5)]
             self.list.fill(self._lines)
 
-    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        super().paint(surface, theme)
-        theme.canvas.fill_rect(surface, theme.palette.panel, *self.area, 3)
-
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         number, line = self._lines[index]
         x, y, w, _ = area
@@ -466,6 +464,7 @@ class Findings(EditorPart):
 
 class FilePart(EditorPart):
     area = LAYOUT.file
+    ground = "panel", LAYOUT.file
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         used, path = super().mouse(event, x, y), self.session.source.path
@@ -481,7 +480,6 @@ class FilePart(EditorPart):
         super().paint(surface, theme)
         canvas, palette, session = theme.canvas, theme.palette, self.session
         x, y, w, h = self.area
-        canvas.fill_rect(surface, palette.panel, *self.area, 3)
         x, w = x + 4, w - 6
         theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
         path, state = session.source.path, "saved" if session.is_saved else "not saved"
@@ -598,6 +596,7 @@ class ObjectList(EditorPart):
     """``shown``: the numbers of the objects whose texts contain all the words of the search."""
 
     area = LAYOUT.palette
+    ground = "panel", (612, 26, 176, 230)
 
     def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
         super().__init__(view)
@@ -640,11 +639,6 @@ class ObjectList(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         return self._state, self.list.first
-
-    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        super().paint(surface, theme)
-        x, y, w, h = self.area
-        theme.canvas.fill_rect(surface, theme.palette.panel, x + 2, y, w - 6, h - 1, 3)
 
     def _choose(self, place: int) -> None:
         tools = self.session.tools

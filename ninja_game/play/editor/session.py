@@ -8,34 +8,8 @@ from functools import partial
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor.certify import (
-    STARTS,
-    Ask,
-    Certification,
-    Certifier,
-    PathPoints,
-    Reach,
-    TestMap,
-    Try,
-    drone_round,
-    find_reach,
-    map_of,
-    round_of,
-    route_of,
-    search_of,
-)
+from ninja_game.editor import certify, files
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import (
-    Autosave,
-    RecoveredDraft,
-    Source,
-    draft_of_text,
-    keep_history,
-    kept_history,
-    new_source,
-    open_source,
-    save,
-)
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, file_stamp
@@ -93,20 +67,20 @@ def _examine(question: _Question) -> Examined:
 class EditorSession:
     """A level under edit, with its file, its tests, and the searches about it."""
 
-    def __init__(self, app: App, source: Source | None = None) -> None:
+    def __init__(self, app: App, source: files.Source | None = None) -> None:
         self.app = app
-        self.certifier = Certifier()
-        self.tools = EditorTools(new_source().draft)
+        self.certifier = certify.Certifier()
+        self.tools = EditorTools(files.new_source().draft)
         self.tools.slopes = app.settings.slopes
-        self._begin(source or new_source(app.settings.name, room=True))
+        self._begin(source or files.new_source(app.settings.name, room=True))
         if source:
             self._recognise()
 
-    def _begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
-        self.autosave = Autosave(self.app.player.folder, draft.file if draft else None)
+    def _begin(self, source: files.Source, draft: files.RecoveredDraft | None = None) -> None:
+        self.autosave = files.Autosave(self.app.player.folder, draft.file if draft else None)
         self.source = draft.source if draft else source
         key = draft.file.stem if draft else source.digest
-        self.tools.load(kept_history(self.app.player.folder, key, (draft or source).draft))
+        self.tools.load(files.kept_history(self.app.player.folder, key, (draft or source).draft))
         self.accepted = dict[str, str]()  #: why its pack accepts findings about it, by code
         with suppress(NinjaGameError, OSError):
             path = self.source.path
@@ -115,26 +89,28 @@ class EditorSession:
         self.certifier.edit(self.draft.level)
         self._objects = self.draft.objects
         # Running searches are about another level.
-        self._checks: NewestJob[_Question, Examined] = NewestJob(_examine)
-        self._reaches: NewestJob[Ask, Reach] = NewestJob(find_reach)
-        self._maps: NewestJob[tuple[Try, ...], TestMap] = NewestJob(map_of)
-        self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
-        self.rounds: NewestJob[Level, PathPoints] = NewestJob(round_of)
+        self._checks = NewestJob(_examine)
+        self._reaches = NewestJob(certify.find_reach)
+        self._maps = NewestJob(certify.map_of)
+        self._known_runs: NewestJob[tuple[Level, Replay], certify.Certification] = NewestJob(
+            lambda known: certify.search_of(*known)
+        )
+        self.rounds = NewestJob(certify.round_of)
         self._drone: tuple[Level, ObjectSpec | None] | None = None
-        self.start = "off"  #: the ninja's state at the pointer for the search of what it can reach, of STARTS
-        self._start_asked: Ask | None = None
-        self._tries: dict[Level, tuple[Try, ...]] = {}
+        self.start = "off"  #: the ninja's state at the pointer for the search of what it can reach, of certify.STARTS
+        self._start_asked: certify.Ask | None = None
+        self._tries: dict[Level, tuple[certify.Try, ...]] = {}
         self._tried_level: Level | None = None
-        self.tries: tuple[Try, ...] = ()  #: all tests of the level as it is
-        self.last_try: PathPoints = ()  #: route of the last test
-        self.last_death: PathPoints = ()  #: where the last of the tries died
+        self.tries: tuple[certify.Try, ...] = ()  #: all tests of the level as it is
+        self.last_try: certify.PathPoints = ()  #: route of the last test
+        self.last_death: certify.PathPoints = ()  #: where the last of the tries died
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._resting = self.draft.level, 0.0  #: the level, and when it became that, s
         self._asked: _Question | None = None
         self._asked_at = 0.0
 
-    def begin(self, source: Source, draft: RecoveredDraft | None = None) -> None:
+    def begin(self, source: files.Source, draft: files.RecoveredDraft | None = None) -> None:
         """Edit another level, or a recovered one; unsaved changes of the present one are discarded.
 
         Raises FileError for a level that another window has recovered.
@@ -196,22 +172,22 @@ class EditorSession:
         return self._checks.result[0] if self._checks.result else None
 
     @property
-    def reach(self) -> Reach | None:
-        """What the ninja can reach from the pointer, or from its last place."""
+    def reach(self) -> certify.Reach | None:
+        """The reach of a ninja at the pointer, or at the pointer's last place."""
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
-        self.start = next_option(list(STARTS), self.start)
+        self.start = next_option(list(certify.STARTS), self.start)
         self._start_asked = None
 
     def _follow_pointer(self) -> None:
-        """Search what can be reached from the pointer; the earlier result stays until then."""
-        speed = STARTS[self.start]
+        """Search the reach from the pointer; the earlier result stays until the new one is there."""
+        speed = certify.STARTS[self.start]
         if self._reaches.problem:
             self.app.notify(self._reaches.problem)
             self.start, self._reaches.problem = "off", ""
         elif speed is not None:
-            ask, before = Ask(self.draft, self.tools.pointer, speed), self._start_asked
+            ask, before = certify.Ask(self.draft, self.tools.pointer, speed), self._start_asked
             if before is None or before.draft is not ask.draft or before[1:] != ask[1:]:
                 self._start_asked = ask
                 self._reaches.ask(ask)
@@ -225,10 +201,10 @@ class EditorSession:
         if now != self._drone:
             self._drone, self.rounds.result = now, None
             if now[1]:
-                self.rounds.ask(drone_round(self.draft, now[1]))
+                self.rounds.ask(certify.drone_round(self.draft, now[1]))
 
     @property
-    def drone_round(self) -> PathPoints:
+    def drone_round(self) -> certify.PathPoints:
         return self.rounds.result or () if self._drone and self._drone[1] else ()
 
     def update(self) -> None:
@@ -290,15 +266,15 @@ class EditorSession:
     def certify_text(self) -> str:
         """What F7 does now."""
         certifier = self.certifier
-        stops = certifier.is_busy and not certifier.is_stale(self.draft.level)
-        stop = f"Stop {certifier.waited}"
-        return "Certify" if not stops else certifier.waited if certifier.is_compiling else stop[:9].strip()
+        if not certifier.is_busy or certifier.is_stale(self.draft.level):
+            return "Certify"
+        return certifier.waited if certifier.is_compiling else f"Stop {certifier.waited}"[:9].strip()
 
     @property
-    def test_map(self) -> TestMap | None:
+    def test_map(self) -> certify.TestMap | None:
         return self._maps.result if self.tries else None
 
-    def changed_source(self) -> Source | None:
+    def changed_source(self) -> files.Source | None:
         """The level's file if another program has changed it. Raises NinjaGameError, OSError."""
         path, now = self.source.path, monotonic()
         if path is None or now - self._looked_at < LOOK_SPACING or self.tools.history.in_stroke:
@@ -308,10 +284,10 @@ class EditorSession:
         self._file_stamp = stamp
         if stamp in (before, NO_FILE):
             return None
-        source = open_source(path)
+        source = files.open_source(path)
         return source if source.digest != self.source.digest else None
 
-    def take(self, source: Source) -> None:
+    def take(self, source: files.Source) -> None:
         """Load the level from its changed file; this can be undone."""
         self.tools.finish()
         self.source = source
@@ -337,7 +313,7 @@ class EditorSession:
             self._certified = known
             self._keep(path, search)
 
-    def _keep(self, path: Path, search: Certification, *, name: str = "") -> None:
+    def _keep(self, path: Path, search: certify.Certification, *, name: str = "") -> None:
         """Write the runs of a search beside a file with its level. ``name``: of a level left by now, for a notice."""
         from ninja_game.search.certificate import update_certificates
 
@@ -359,7 +335,7 @@ class EditorSession:
                     end = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level"
                 self.app.notify(f"{name}: {end}")
 
-    def _file_now(self, path: Path, search: Certification) -> NamedLevel | None:
+    def _file_now(self, path: Path, search: certify.Certification) -> NamedLevel | None:
         """The level of a search in its file, or in another of the player's files, as in a pack; None if it is gone."""
         with suppress(NinjaGameError, OSError):
             if (named := load_levels(path)[0]).level == search.level:
@@ -371,7 +347,7 @@ class EditorSession:
     def _leave_search(self) -> None:
         """The level is closed: a search of the level in its file continues in the background, any other one ends."""
         path, level = self.source.path, self.source.draft.level
-        keep_history(self.app.player.folder, self.source.digest, self.tools.history)
+        files.keep_history(self.app.player.folder, self.source.digest, self.tools.history)
         if path and self._keeps_runs(path) and self.certifier.is_busy and not self.certifier.is_stale(level):
             self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
         else:
@@ -392,10 +368,10 @@ class EditorSession:
         """
         self.tools.finish()
         named = self.draft if name is None else replace(self.draft, name=name)
-        self.source = save(self.source, named, path, replacing=replacing)
+        self.source = files.save(self.source, named, path, replacing=replacing)
         # The file has the new name, so undo keeps it.
         self.tools.history.amend(lambda draft: replace(draft, name=named.name))
-        keep_history(self.app.player.folder, self.source.digest, self.tools.history)
+        files.keep_history(self.app.player.folder, self.source.digest, self.tools.history)
 
     def export_picture(self) -> None:
         surface = thumbnail(self.draft.level, self.app.theme.palette, LEVEL_PICTURE_WIDTH)
@@ -411,7 +387,7 @@ class EditorSession:
         """Replace the level by the one in the clipboard, in any format; this can be undone."""
         try:
             self.tools.finish()
-            self.tools.history.change(draft_of_text(pasted_text(), self.draft))
+            self.tools.history.change(files.draft_of_text(pasted_text(), self.draft))
             self.app.notify("The level of the clipboard; undo brings yours back")
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
@@ -425,15 +401,15 @@ class EditorSession:
             return
         tries = self._tries.get(self.draft.level, ())
         goes_on = tries and not tries[-1].over and tries[-1].level is level and inputs.startswith(tries[-1].inputs)
-        self._tries[self.draft.level] = (*(tries[:-1] if goes_on else tries), Try(level, inputs, over))
-        self.last_try = route_of(level, inputs)
+        self._tries[self.draft.level] = (*(tries[:-1] if goes_on else tries), certify.Try(level, inputs, over))
+        self.last_try = certify.route_of(level, inputs)
         self._show_tries()
 
     def _show_tries(self) -> None:
-        """Take the tests of the level as it is now; what died in another version may have met what is gone."""
+        """Show only tests of the present version of the level: others may have met objects that are gone."""
         self._tried_level = self.draft.level
         self.tries = self._tries.get(self.draft.level, ())
-        self.last_death = map_of(self.tries[-1:]).deaths
+        self.last_death = certify.map_of(self.tries[-1:]).deaths
         if self.tries:
             self._maps.ask(self.tries)
 
@@ -443,7 +419,7 @@ class EditorSession:
         if helped or level != self.draft.level:
             return False
         replay = attempt.replay(self.name, self.app.settings.name)
-        self.certifier.adopt(search_of(level, replace(replay, made=Provenance(played=True))))
+        self.certifier.adopt(certify.search_of(level, replace(replay, made=Provenance(played=True))))
         return True
 
     def keep_certificate(self) -> None:

@@ -235,7 +235,7 @@ def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float =
 
 
 def route_mark(canvas: Canvas, colour: Colour, route: PathPoints) -> LevelMark:
-    """The route of a run, as far as it is in the shown part, with a dot at its end."""
+    """The visible part of a run's route, with a dot at its end."""
     shown = [point for point in route if is_near(*point)]
     if len(shown) < 2:
         return LevelMark(lambda _: None, ())
@@ -307,16 +307,15 @@ _SAID_AT = {
 
 
 def things_of(draft: Draft, when: str) -> list[Point]:
-    """What the ninja touches at a moment of a message, px; nothing where that is unknown."""
+    """Places of the objects whose touch is the moment ``when`` of a message, px; none for other moments."""
     name, part = _SAID_AT.get(when, ("", BODY_PART))
     return [at for spec in draft.objects if object_type_name(spec) == name and (at := points(spec).get(part))]
 
 
 def said_at(draft: Draft, message: LevelMessage) -> Point | None:
-    """Where the ninja is when a message comes, px: what it has just touched; None where that is unknown."""
-    return (
-        None if message.number else next((at for at in things_of(draft, message.when) if message.is_about(*at)), None)
-    )
+    """The object that the ninja has touched when a message comes, px; None if that is unknown."""
+    things = [] if message.number else things_of(draft, message.when)
+    return next((at for at in things if message.is_about(*at)), None)
 
 
 def visit_mark(canvas: Canvas, palette: Palette, cell: Cell, share: float) -> LevelMark:

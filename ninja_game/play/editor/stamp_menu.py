@@ -56,4 +56,7 @@ class StampMenu(Menu):
         level = Level(draft.level.tiles, (ObjectSpec(NINJA, (-400.0, -400.0)), *draft.level.objects))
         side = self.theme.canvas.px(min(_CELL, _WIDE / width, _HIGH / height))
         picture = thumbnail(level, self.app.palette_in(self.mood), side * (COLUMNS + 2))
-        return picture.subsurface(picture.get_rect().clip((left * side, top * side, width * side, height * side)))
+        area = picture.get_rect().clip((left * side, top * side, width * side, height * side))
+        stamp_picture = pygame.Surface(area.size)
+        stamp_picture.blit(picture, (0, 0), area)
+        return stamp_picture

@@ -1,4 +1,4 @@
-"""The level under edit: its picture, the pointer, and the area that the other parts leave."""
+"""The level under edit in its part of the window: picture, overlay, pointer; and the places of all parts."""
 
 from __future__ import annotations
 
@@ -41,18 +41,18 @@ from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
 GHOST = 5
-"""Opacity in eighths of what a press would draw."""
+"""Opacity of the preview of a press, in eighths."""
 NEAR_SWITCH_PX = 1.0
-"""A switch closer than this to the next exit, px, would be hidden by it: nothing is drawn over a fresh one."""
+"""px; a preview nearer than this to a switch is not drawn: it would hide a switch that was just placed."""
 DOUBLE = 4
-"""Notches of the wheel by which the level becomes twice as large."""
+"""Notches of the wheel that double the zoom."""
 EDGE_SPEED = 0.3
 """Scrolling while something is dragged beyond an edge of the view, logical px per ms."""
 
 
 @drawing(13)
 def _ring(s: Sketch, p: Palette, colour: str) -> None:
-    """A ring around the selection, or what a click would select. ``colour``: its name in the palette."""
+    """A ring around an object that is, or by a click would be, selected. ``colour``: a role of the palette."""
     s.ring(getattr(p, colour), 0, 0, 11, 1.6)
 
 
@@ -72,7 +72,7 @@ class Overlay:
         self._reached, self._seen = pygame.Surface((1, 1)), pygame.Rect(0, 0, 0, 0)
 
     def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
-        """Copy the changed px of the sheet, and those under the last overlay, to the window; the px of the window."""
+        """Copy changed parts of the sheet, and those under the last overlay, to the window; gives these areas, px."""
         x, y = self.area.topleft
         changed = united(rect.clip(self.area) for rect in [area.move(x, y) for area in rects] + self.target.covered)
         for rect in changed:
@@ -82,7 +82,7 @@ class Overlay:
     def draw(
         self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, said: Point | None, *, hovering: bool
     ) -> list[pygame.Rect]:
-        """``said``: where the bubble of the selected message is, px of the level."""
+        """Draw the overlay; gives the covered areas, px. ``said``: bubble of the selected message, px of the level."""
         self.target.begin(surface)
         surface.set_clip(self.area)
         if reach:
@@ -141,7 +141,7 @@ class Overlay:
         self._note(rect)
 
     def _ghost(self, stamp: Stamp, *, empty: bool) -> None:
-        """What a paste would draw."""
+        """Draw the preview of a paste."""
         for cell, tile in (stamp if empty else stamp.solid).tiles.items():
             self._ghost_tile(cell, tile)
         for sprites in self.sheet.pictures.sprites_of(stamp.objects).values():
@@ -150,7 +150,7 @@ class Overlay:
             self._frame(area_around(stamp.tiles), self.sheet.palette.accent)
 
     def _hover(self, tools: EditorTools) -> None:
-        """What a press would do here, and at the mirrored places of a symmetry."""
+        """Draw the preview of a press, also at the mirrored places of a symmetry."""
         if tools.placing_switch:
             return
         if ghost := tools.pasted:
@@ -161,7 +161,7 @@ class Overlay:
         if not draws:
             target = tools.near(PICK_REACH)
             for message in messages_at(tools.draft.says, tools.cell):
-                # It appears when the ninja comes in.
+                # The message appears when the ninja enters this frame.
                 self._frame(message.frame, self.sheet.palette.accent)
             if target:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
@@ -192,6 +192,8 @@ class Overlay:
 
 
 class EditorLayout(NamedTuple):
+    """Areas of the parts of the editor, logical px."""
+
     toolbar: Area = (0, 0, 792, 26)
     level: Area = (6, 30, 602, 456)
     palette: Area = (610, 26, 182, 231)
@@ -212,12 +214,12 @@ class EditorView(Pane):
     def __init__(self, app: App, session: EditorSession) -> None:
         self.app = app
         self.session = session
-        self.hovering = self.by_keys = False  #: the pointer is shown; keys or a pad have moved it last
+        self.hovering = self.by_keys = False  #: whether the pointer is shown; whether keys or a pad moved it last
         self._hint = session.draft, ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = self.tests = False  #: the list of objects is shown, not the palette; the map of tests is shown
-        #: Gets the cell of the next press in the level, which draws nothing then; None if that is cancelled
+        self.listing = self.tests = False  #: whether a list replaces the palette; whether the map of tests is on
+        #: gets the cell of the next press, which then draws nothing; None: cancelled
         self.taker: Callable[[Cell | None], None] | None = None
         session.tools.gave_up = self._tell_given_up
         self.open_message: Callable[[int], object] = lambda _: None  #: gets the number of a double-clicked message
@@ -233,7 +235,7 @@ class EditorView(Pane):
 
     @property
     def hint(self) -> str:
-        """For the line below; it is about the level as it was then."""
+        """A text for the status line; it is dropped when the level changes."""
         about, text = self._hint
         return text if about is self.session.draft else ""
 
@@ -248,14 +250,8 @@ class EditorView(Pane):
     def message(self) -> int | None:
         """The number of the selected message."""
         tools, number = self.session.tools, self._message
-        if (
-            number is None
-            or tools.tool != "select"
-            or tools.selection
-            or number not in said_places(tools.draft).values()
-        ):
-            return None
-        return number
+        selects = tools.tool == "select" and not tools.selection
+        return number if selects and number in said_places(tools.draft).values() else None
 
     def _layout_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name, *self.camera.render_key
@@ -310,7 +306,7 @@ class EditorView(Pane):
 
     def show_grid(self, grid: Grid) -> None:
         self.grid = grid
-        self.sheet.show_grid(self.grid.lines())
+        self.sheet.show_grid(grid.lines())
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
         cell = self.session.tools.cell
@@ -341,7 +337,7 @@ class EditorView(Pane):
             self.app.notify("Not turned: a part of it would leave the level. Move it away from the border first")
 
     def take(self, cell: Cell | None) -> bool:
-        """Give a cell to a waiting ``taker``; whether there was one. None also gives up the selected message."""
+        """Give a cell to a waiting ``taker``; tells whether there was one. None cancels, or deselects a message."""
         if cell is None and self.message is not None:
             self._message = None
             return True
@@ -385,7 +381,7 @@ class EditorView(Pane):
         self.hovering = False
 
     def render_key(self) -> tuple[object, ...]:
-        """All that the overlay depends on; changes of the level are known to the sheet."""
+        """All that the overlay depends on; the sheet watches the level itself."""
         tools = self.session.tools
         return (
             tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,

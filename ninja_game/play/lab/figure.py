@@ -282,7 +282,6 @@ class Figure:
 
     @property
     def cell(self) -> int:
-        """The cell of the handle."""
         return cell_at(self.x, self.y)
 
     def controls(self) -> Sequence[Control]:

@@ -21,14 +21,14 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.view.hud import EndPanel, HudView, placed_message
 from ninja_game.view.places import MUST, Things
 
-_FADE_TICKS = 8  # until the panel of an ended run is solid
-SHINE_TICKS = 20  # for which light moves over its medal
+_FADE_TICKS = 8  # ticks until the panel of an ended run is opaque
+SHINE_TICKS = 20  # ticks for which light moves over its medal
 _END_ROOM = 36.0  # px around the end of the run that the panel leaves free
 _POINTER_UP = 24.0  # px from a thing up to the middle of its pointer
 _POINTER_REACH = 50.0  # px from the ninja to a pointer that does not hide it
 _MARKED = "silver", "gold"  # medals on the time bar
 _TOOLS = {"quick_save": "save", "quick_load": "load", "rewind": "rewind", "slow": "slow", "step": "step"}
-_TOOLS_NAMED = 600  # for which a practice run shows the keys of the tools that work
+_TOOLS_NAMED = 600  # ticks for which a practice run shows the keys of its tools
 _THINGS = {"switch": SWITCH, "exit": EXIT}
 
 KeyName = Callable[[str], str]  # gives the key of an action

@@ -35,7 +35,7 @@ STAMP_TICKS = 14  # ticks from the exit contact to the stamp of the medal
 
 # After a pass the failed tries are shown together.
 TRIES_FROM = 40  # ticks after the exit contact
-TRIES_TICKS = 80  # of the show
+TRIES_TICKS = 80  # ticks for which they are shown
 MAX_TRIES = 24  # the newest are shown
 
 SLOW_TICK_MS = 100  # a tick in slow motion: a quarter of the speed
@@ -134,7 +134,7 @@ class LevelPlay:
             self.messages.say_again()
         for keys in self.playthrough.lead:
             self.attempt.tick(keys)
-            self.tools.on_tick()
+            self.tools.playback.note()
             self._say()
         self.view.on_seek()
 
@@ -277,7 +277,7 @@ class LevelPlay:
             self.keys, self._tapped = held & ~self._ignored, 0
             self.attempt.tick(self.keys, invincible=self.invincible)
             self.view.on_tick()
-            self.tools.on_tick()
+            self.tools.playback.note()
             if self.phase is Phase.PLAY:
                 self._say()
             self._note_end()
@@ -347,9 +347,6 @@ class PracticeTools:
         """The attempt was restarted; a quick-save stays valid."""
         self.playback = Playback(self.attempt.simulation, self.attempt.inputs, spacing=_SPACING)
         self.rewinding = self.stepping = False
-
-    def on_tick(self) -> None:
-        self.playback.note()
 
     def quick_save(self) -> None:
         self.saved = self.attempt.save()

@@ -1,4 +1,4 @@
-"""The card of a pack: what a player sees of it first."""
+"""The card of a pack, which a player sees first."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A pack of the player's as rows of levels, which the mouse or keys move; what is done with it can be undone."""
+"""A pack of the player's as rows of levels, which the mouse or keys move; every change can be undone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The menus of the screen of packs: what can be done with a pack, an episode, a level."""
+"""The menus of the screen of packs: the actions on a pack, an episode, a level."""
 
 from __future__ import annotations
 

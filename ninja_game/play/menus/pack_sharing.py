@@ -1,4 +1,4 @@
-"""A pack on its way to other players: its problems, made ready, zipped and linked; received from others."""
+"""Packs are shared and received: their problems, *Make ready*, zips and links, and packs from others."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
 
 
 def _as_seen(pack: Pack, value: object) -> object:
-    """A value of a finding as the desk shows it: files count columns and episodes from 0, and levels have names."""
+    """A value of a finding as the desk shows it: numbers from 1, not from 0; levels by name, not by file."""
     if isinstance(value, int):
         return value + 1
     named = pack.levels.get(value) if isinstance(value, str) else None
@@ -101,7 +101,7 @@ def open_folder(desk: PackDesk) -> None:
 
 
 def copy_the_link(desk: PackDesk) -> None:
-    """Copy it; of a pack of one's own, first ask whether levels that are not certified are to go along."""
+    """Copy the link; for an own pack first ask whether to include levels without certificate."""
     pack = desk.pack_now()
     if not (desk.pack and pack):
         return
@@ -121,7 +121,7 @@ def copy_the_link(desk: PackDesk) -> None:
 
 
 def prepare_shown(desk: PackDesk) -> None:
-    """Make the shown pack ready; of one's own, first ask once for what players see."""
+    """Make the shown pack ready; an own pack without author or comment opens its form first."""
     pack = desk.pack_now()
     if not (desk.pack and pack):
         return
@@ -157,7 +157,7 @@ def paste(desk: PackDesk) -> None:
 
 
 class ZipsScreen(FilesScreen):
-    """Chooses a zip with a pack, at first among what was loaded down."""
+    """Chooses the zip of a pack; it starts in the folder of downloads."""
 
     foot = "Enter opens a folder, or receives the pack of a zip; Esc goes back"
     suffixes = (".zip",)
@@ -217,7 +217,7 @@ def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
 
 
 def show_card(desk: PackDesk, pack: EpisodeSet) -> None:
-    """What a received pack is, before the desk, which is for makers."""
+    """Show the card of a received pack; from there makers get to the desk."""
     rows: list[MenuRow] = [
         ("Play", partial(view, desk) if pack.episodes else None, "" if pack.episodes else "No episode has levels"),
         ("Edit a copy", lambda: desk.copy_pack(pack.pack) if pack.pack else None, "What was received stays as it is"),

@@ -27,8 +27,8 @@ PULL = 6
 
 
 class PackCell(NamedTuple):
-    episode: EpisodeIndex | None  #: None in the row for a new one
-    level: Entry | None = None  #: None if free
+    episode: EpisodeIndex | None  #: None: in the row for a new episode
+    level: Entry | None = None  #: None: a free place
     head: bool = False
 
 
@@ -162,14 +162,14 @@ class Rack(ListView):
 
 
 class Marks(set[str]):
-    """Files of the levels that are chosen together: what is done with one of them is done with all."""
+    """Files of the marked levels: an action on one of them is done with all."""
 
     def together(self, level: Entry, levels: Sequence[Entry]) -> list[Entry]:
-        """The levels that an action on one of ``levels`` is for: all that are marked, if it is one of them."""
+        """The levels of an action on ``level``: all marked ones if it is marked, else only itself."""
         return [other for other in levels if other.named.file in self] if level.named.file in self else [level]
 
     def click(self, rack: Rack, index: int) -> bool:
-        """Mark levels where Ctrl or Shift is down; whether it was. A click on another than those marked ends that."""
+        """Mark levels if Ctrl or Shift is down; tells whether it was. Else a click on an unmarked one unmarks all."""
         mods = pygame.key.get_mods()
         level = rack.cells[index].level
         if not (level and mods & (pygame.KMOD_CTRL | pygame.KMOD_META | pygame.KMOD_SHIFT)):

@@ -1,4 +1,4 @@
-"""The state of a pack, and the background work that makes it ready to share, on whatever screen."""
+"""Makes a pack ready to share, in the background under any screen; and the state of that work."""
 
 from __future__ import annotations
 
@@ -45,10 +45,10 @@ class Packer(Aside):
         self.path = Path()  #: the pack that is or was made ready
         self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
-        self._known: Sequence[PackFinding] | None = None  #: problems that the player knows; None: they are asked first
+        self._known: Sequence[PackFinding] | None = None  #: problems that the player accepts; None: ask about all first
         self._watching: tuple[Screen, Path | None] | None = None  #: the desk, and the pack that it shows
         self.obstacles: Obstacles = {}
-        self.steps = Steps(app.player.folder)  #: what was done at the desk
+        self.steps = Steps(app.player.folder)  #: changes made at the desk
         self.is_busy = self._stopped = False
         self.text = ""  #: progress, or result
         self._result_text = ""
@@ -74,7 +74,7 @@ class Packer(Aside):
         return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
-        """Make a pack ready. ``known``: problems that are not asked about; None: what is wrong is asked before."""
+        """Make a pack ready. ``known``: problems that the player accepts; None: all problems are asked about first."""
         self._known, self.path, self.is_busy, self._stopped = known, path, True, False
         self.saved = self._open_problems = None
         self._seconds = seconds
@@ -166,7 +166,7 @@ class Packer(Aside):
             self.text = self._result_text if pack.files.zipped() == self._zipped else f"Changed since {self.saved.name}"
 
     def drop_notices(self) -> None:
-        """Drop what was true only while the desk was open, as that the clipboard has the link."""
+        """Drop texts that hold only while the desk is open, such as that the link was copied."""
         self._result_text = f"Saved: {short_path(self.saved)}" if self.saved else ""
         self.text, self._compared = self._result_text, None
 
@@ -177,7 +177,7 @@ class Checked:
 
     pack: Pack
     findings: list[PackFinding]  #: accepted or not, without those below
-    to_do: list[PackFinding]  #: those that Make ready removes
+    to_do: list[PackFinding]  #: findings that *Make ready* removes
 
     @classmethod
     def of(cls, pack: Pack, obstacles: Obstacles) -> Checked:
@@ -278,7 +278,6 @@ class PackStatus:
 
 
 def packer_of(app: App) -> Packer:
-    """The packer of the program."""
     for task in app.aside:
         if isinstance(task, Packer):
             return task

@@ -1,4 +1,4 @@
-"""Replays: those in the records, those in the player's folder, those that come with the game; and records."""
+"""The lists of replays (in the records, in the player's folder, of the game) and of records."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The replay viewer, and its export."""
+"""The replay viewer, and its export as films and pictures."""

@@ -1,4 +1,4 @@
-"""A picture of runs: their paths over the level, and below it the ninja's speed over time."""
+"""A picture of runs: their paths over the level, and below it speed over time."""
 
 from __future__ import annotations
 

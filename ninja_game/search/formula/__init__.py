@@ -1,1 +1,1 @@
-"""Search for the keys of a span of ticks that reach a goal which a person states."""
+"""Search for keys of a span of ticks that reach a goal, given as a formula."""

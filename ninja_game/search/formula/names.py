@@ -26,7 +26,7 @@ NAMES = {
 """The names, and the number of their arguments in brackets; docs/speedruns.md explains them."""
 
 SPAN_NAMES = {**NAMES, "difference": 1}
-"""The names in a search, which has a run to compare with."""
+"""The names in a span search, which can compare with the run."""
 
 FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
 """The names that are true or false."""
@@ -165,7 +165,7 @@ def flag_field(what: str, kind: int, id_: float) -> str:
 
 
 _SPEED = 4.0
-"""px per tick of a field, so that these margins are comparable to distances in formulas: a step of 6 px is 1.5."""
+"""px per tick of a field: it makes margins comparable to distances in formulas (6 px to the next point: 1.5 ticks)."""
 UNREACHABLE = -1.0 - _SPEED * FARTHEST
 """The margin if no way leads to what makes a fact true."""
 

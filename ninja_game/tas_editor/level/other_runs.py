@@ -34,7 +34,7 @@ from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import Button, Widget
 
 QUICK = RUN_BUDGET // 100
-"""Work that a run may cost in a list: 30 ms compiled, some ten times that of a run of a minute."""
+"""Work that a run may cost in a list: 30 ms compiled, enough for a run of some ten minutes."""
 LOOK_SECONDS = 0.3
 """Processor time for looking into the files of a folder."""
 NONE_YET = "No other run is open: Ctrl+O opens one"

@@ -254,6 +254,8 @@ class LevelPart(TasPart):
 
 
 class LevelPointer:
+    """The mouse over the level: goes along the run, moves the picture, zooms, points at objects."""
+
     def __init__(self, part: LevelPart) -> None:
         self._part = part
         self._editor = part.editor

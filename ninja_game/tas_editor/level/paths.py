@@ -29,7 +29,7 @@ _BLOCK = 1000  # ticks by which the visible part of a long run moves
 LETTERS = 9  # size of texts over the level, in logical px of the TAS editor, as all sizes here
 _MAX_NAME = 100
 _THIN = 0.8  # width of paths
-_THICK = 2.7  # of their selected part
+_THICK = 2.7  # width of their selected part
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
@@ -53,7 +53,7 @@ class OtherRunPath(NamedTuple):
 
 
 class LevelPaths:
-    """Draws paths of runs over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
+    """Draws paths of runs over a picture of the level. ``canvas``: the picture's; ``theme``: the TAS editor's."""
 
     def __init__(self, theme: Theme, canvas: Canvas) -> None:
         self.theme = theme
@@ -171,7 +171,7 @@ class LevelPaths:
 
 
 def union_of(rects: Sequence[pygame.Rect]) -> pygame.Rect:
-    """The smallest rectangle around all that are not empty."""
+    """The smallest rectangle around all non-empty ones."""
     known = [rect for rect in rects if rect]
     return known[0].unionall(known) if known else pygame.Rect(0, 0, 0, 0)
 

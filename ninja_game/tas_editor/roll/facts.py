@@ -20,7 +20,7 @@ from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette
 
 _PREVIEW, BEFORE = -1, -2
-"""Instead of the number of another run."""
+"""Values of ``Compared.number`` for a run that is not among the other runs."""
 
 
 class Compared(NamedTuple):
@@ -106,11 +106,11 @@ class RowFacts(NamedTuple):
     differs: int  #: the keys that are down either here or in the compared run
     values: Values | None  #: None if the tick is not simulated
     events: str
-    death: str  #: the killer of this tick
-    lead: int | None  #: over the other run, ticks; None without a common event
+    death: str  #: what killed the ninja in this tick, "" else
+    lead: int | None  #: ticks ahead of the other run at an event of both; None in other ticks
     name: str
-    beyond: bool  #: whether it is behind the last input
-    over: bool  #: whether it is behind exit or death
+    beyond: bool  #: whether it is after the last input
+    over: bool  #: whether it is after the exit or the death
     changed: bool  #: whether its keys differ from the saved ones
     selected: bool
     cursor: bool
@@ -196,7 +196,7 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
 
 
 def key_difference_text(row: RowFacts, other: str) -> str:
-    """The keys of a row, and those of the compared run, which is called ``other``."""
+    """The keys of a row and of the compared run, named ``other``, as text."""
     ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
     return f"{row.tick}: {ours}; {other}: {theirs}"
 

@@ -33,7 +33,6 @@ class Tab(TasPart):
 
     @property
     def preview(self) -> OtherRun | None:
-        """The run that it previews."""
         return None
 
     def place(self, area: Area) -> None:

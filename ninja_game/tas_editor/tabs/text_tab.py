@@ -99,8 +99,8 @@ class TextTab(Tab):
         self._clicked = False
         self.starts = starts_of(self._track)
         self._seen: tuple[object, ...] = ()
-        self._lines: Span | None = None  #: the ticks of several selected lines, as long as no other ones are
-        self._anchor: Span = (0, 1)  #: what was selected before them
+        self._lines: Span | None = None  #: ticks of the selected lines, if there are several
+        self._anchor: Span = (0, 1)  #: ticks of the line where that selection began
         self.list = Rows(self._draw_row, self._choose, hint="A click selects a line, with Shift those between")
         hint = "R*30 RJ*10 or 30,R,J, several; #name: a marker; # any text: a comment; nothing: no such ticks. Enter"
         self.field = EntryField("the line of the cursor's tick", self.put, longest=MAX_LINE, hint=hint, step=self._step)
@@ -131,7 +131,7 @@ class TextTab(Tab):
         self._clicked = False
 
     def left(self) -> None:
-        """Escape: the field shows what the run has, not what was typed."""
+        """Escape: drop the typed text and show the run's again."""
         self._seen = ()
 
     @property
@@ -190,7 +190,7 @@ class TextTab(Tab):
             error.line = error.column = 0
             self.editor.refuse(f"Not changed: {place}{error}")
             return False
-        if commented:  # a tick has one name: this is it, with what is said behind it
+        if commented:  # the only name of its tick, comment included
             typed = typed._replace(markers=(*typed.markers, Marker(len(typed.keys), commented[1])))
         typed = _named_in_line(typed)
 

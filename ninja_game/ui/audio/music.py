@@ -26,7 +26,7 @@ LAYERS = ("base", "danger", "speed", "exit")
 LAYERS_OF: dict[str, tuple[str, ...]] = {MENU: LAYERS[:1], **dict.fromkeys(COLUMN_MUSIC, LAYERS)}
 
 FADE_MS = 350  # from one music to the next, each way
-FOLLOW_MS = 700  # until a layer has gone 63 % of the way to its level
+FOLLOW_MS = 700  # time in which a layer goes 63 % of the way to its level
 _NEAR = 120.0  # px from a danger to the loudest layer
 _FAR = 420.0  # px to where a danger is not heard
 FAST = 3.2  # px/tick with the loudest layer of speed; silent at half of it

@@ -18,7 +18,7 @@ def variants(name: str, count: int) -> Names:
     return tuple(f"{name}-{number}" for number in range(1, count + 1))
 
 
-PING = variants("gold", 12)  # of gold, from low to high
+PING = variants("gold", 12)  # gold, from low to high
 
 STEPS = variants("step", 5)
 

@@ -1,1 +1,1 @@
-"""From keys and buttons to actions."""
+"""From keys and gamepad buttons to actions, as the player has bound them."""

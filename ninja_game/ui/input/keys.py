@@ -100,11 +100,11 @@ def key_label_of(name: str) -> str:
 
 T = TypeVar("T")
 
-MAX_STEP_MS = 50  # a longer picture is a stall and no long press: the release may wait in the queue
+MAX_STEP_MS = 50  # a longer step is a stall, not a long press: the release may still wait in the queue
 
 
 class HeldKey(Generic[T]):
-    """A key that repeats while it is held. ``what``: its action; None where none is held."""
+    """A key that repeats while it is held. ``what``: its action; None if no key is held."""
 
     def __init__(self) -> None:
         self.what: T | None = None

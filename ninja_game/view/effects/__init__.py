@@ -1,1 +1,1 @@
-"""Particles for events."""
+"""Particles for the events of a tick."""

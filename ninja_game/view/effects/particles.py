@@ -17,10 +17,7 @@ MAX_PARTICLES = 100  # most in front of the ninja, and behind it; the oldest is 
 
 @dataclass(slots=True)
 class Particle:
-    """(x, y): start, px; (dx, dy): movement over its life; ``fall``: px that it sinks in that time.
-
-    Times in ticks.
-    """
+    """(x, y): start, px; (dx, dy): movement over its life; ``fall``: px that it sinks in that time. Times in ticks."""
 
     kind: str
     x: float

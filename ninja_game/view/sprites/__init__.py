@@ -1,1 +1,1 @@
-"""Drawings of tiles and objects."""
+"""Drawings of tiles and objects; the ninja has its own folder, ``view.ninja``."""

@@ -1,1 +1,1 @@
-"""The pages of a board."""
+"""The pages of a board, of runs that ``ninja_game.board`` has judged and ranked."""

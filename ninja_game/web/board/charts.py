@@ -21,9 +21,9 @@ BESIDE, BELOW, _RIGHT = 72, 28, _WIDTH - _MARGIN  # room for the labels; the rig
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # least px between two numbers
 
-_FLOOR, _LANES, DEEP = 130, (152, 176, 200), 240  # of speeds, of the keys, and of both together
+_FLOOR, _LANES, DEEP = 130, (152, 176, 200), 240  # px from the top: speeds, keys, lower end
 ROW_TICKS, _MAX_ROWS = 10 * TICKS_PER_SECOND, 6  # a row of speeds and keys; a long run has longer ones
-_MAX_COLUMNS = 400  # of a row
+_MAX_COLUMNS = 400  # columns of a row
 LABELS_APART = 26  # least px between two numbers of splits
 
 

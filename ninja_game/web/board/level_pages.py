@@ -1,4 +1,4 @@
-"""The pages of levels and of runs."""
+"""A board's pages of levels and of runs; all others are in ``pages``."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ from ninja_game.web.pages.frame import Content, Markup, joined, on_this_page, se
 from ninja_game.web.pages.gallery import BOARD, UP, level_page, page_name, path_data, picture, picture_name, run_page
 
 ROWS_SHOWN = 10  # rows of a table
-RUNS_SIDE_BY_SIDE = 5  # runs side by side
+RUNS_SIDE_BY_SIDE = 5
 MIN_SPLITS = 5  # with fewer, splits do not show where time is lost
-MAX_LEADS = 160  # of a line in a chart
+MAX_LEADS = 160  # points of a line in a chart
 COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
 MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
 _MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
@@ -351,7 +351,7 @@ def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequen
 
 
 def _split_rows(runs: Sequence[RunSplits]) -> list[SplitRow]:
-    """Rows of splits of the first, the fastest; gold that only others take is left out, all of it where too much."""
+    """Rows of splits of the fastest run, without gold that only others take; without any gold if rows are too many."""
     gold, rows = SPLIT_EVENTS[0], split_table(runs, runs[0])
     if len(rows) > MAX_SPLITS:
         runs = [replace(run, splits=tuple(split for split in run.splits if split.event != gold)) for run in runs]

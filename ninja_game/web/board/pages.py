@@ -57,7 +57,7 @@ NEWEST = 30
 NEWEST_RUNS = 10
 LEADING = 20
 CONTESTED = 8
-CARDS = 8  # of the newest records; older ones are rows
+CARDS = 8  # the newest records are cards, older ones rows
 MAX_FILE_NAME = 24  # characters of a name of a file
 MAX_OF_A_MOMENT = 5  # records of one moment that have a row each
 
@@ -67,7 +67,7 @@ HOW_TO_SEND = (
     "Send the file to the keeper of this board; to a board in a repository, by a pull request that adds it.",
 )
 
-Piece = tuple[str, str, Content]  # of a page: anchor, title, content
+Piece = tuple[str, str, Content]  # part of a page: anchor, title, content
 
 FEED = "feed.xml"
 ONE_MOMENT = "Where several runs that came in together beat a level's record, the best of them is the record."

@@ -30,10 +30,10 @@ from ninja_game.ui.canvas import png_of
 from ninja_game.web.pages import frame
 from ninja_game.web.pages.frame import GAME_PAGE, HOME_PAGE, NAVIGATION, SEARCH_PAGE, Content, Markup, joined, tag
 
-FILM = "pictures/ninja-game.webp"  # of the first page
-_STILL = "pictures/ninja-game.png"  # for readers who want no motion
+FILM = "pictures/ninja-game.webp"  # the film of the first page
+_STILL = "pictures/ninja-game.png"  # its picture, for readers who want no motion
 
-FIGURES_SCRIPT = "app-folder/figures.js"  # where the build puts what makes figures move
+FIGURES_SCRIPT = "app-folder/figures.js"  # the script that animates figures
 
 LAB = "lab-"  # the beginning of the name of a figure's picture
 
@@ -159,7 +159,7 @@ class Documents:
             link = tag("a", f"{title}: {heading}" if heading else title, href=page_name + (anchor and f"#{anchor}"))
             start = " ".join(texts)[:160]
             entry = tag("li", link, tag("p", start, class_="faint"), data_place=len(self.searched))
-            # All words: ``tag`` would truncate a text.
+            # Not by ``tag``, which would truncate the text.
             self.searched.append(Markup(entry.replace("<li", f'<li data-words="{escape(words.casefold())}"', 1)))
 
     def _rewrite_links(self, name: str, tokens: list[Token]) -> bool:
@@ -281,7 +281,7 @@ def _add_anchors(tokens: list[Token]) -> Iterator[tuple[str, str]]:
 
 
 def _film(path: Path) -> dict[str, bytes]:
-    """The moving picture of the first page, every second picture of it, as WebP; and its middle as PNG."""
+    """Every second picture of the first page's film as WebP, and its middle picture as PNG."""
     from PIL import Image, ImageSequence
 
     film, still = BytesIO(), BytesIO()
@@ -296,7 +296,7 @@ def _film(path: Path) -> dict[str, bytes]:
 def _replace_paragraph(
     before: Token, token: Token, after: Token, links: Iterable[tuple[str, str]], folder: Path
 ) -> None:
-    """Turn a paragraph of sources or an answer into a part that opens at a click; of a picture into that.
+    """Turn a paragraph of sources or an answer into a part that opens at a click, and one of a picture into a picture.
 
     ``links``: those in it, as written, relative to ``folder``, and their targets in the site.
     """

@@ -147,8 +147,8 @@ def run_page(
     return frame.page(title, shown, below, up=place, links=links, picture=picture, description=summary)
 
 
-MAX_POINTS = 400  # of a drawn path
-_NEAREST = 4.0  # least px between two of them
+MAX_POINTS = 400  # points of a drawn path
+_NEAREST = 4.0  # least px between two points of a path
 
 
 def path_data(positions: NDArray[np.float64]) -> str:

@@ -116,7 +116,7 @@ def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
         players.append(current_thread())
         return search_of(*of)
 
-    monkeypatch.setattr("ninja_game.play.editor.session.search_of", played)
+    monkeypatch.setattr("ninja_game.editor.certify.search_of", played)
     shutil.copy(PACK / f"{name}.txt", levels / "mine.txt")
     room.editor.commands.open_file(levels / "mine.txt")
     room.wait(lambda: session.certifier.text, "certificate")
