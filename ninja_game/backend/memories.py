@@ -135,14 +135,13 @@ def open_worlds(
     return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
 
-def prefers_plain(memory: str = "auto", work: int = NO_LIMIT, *, checked: bool = False) -> bool:
-    """Whether a run begins on the plain memory: it is little ``work``, or kernels are not compiled yet."""
-    little = _PROCESS.short_work + work <= PLAIN_WORK
-    return _has_choice(memory, checked=checked) and (little or not _kernels_ready(checked=checked))
+def prefers_plain() -> bool:
+    """Whether a run begins on the plain memory even if it is much work: its kernels are not compiled yet."""
+    return _has_choice("auto", checked=False) and not _kernels_ready(checked=False)
 
 
 def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
-    """Count a run that begins now, or let a process compile its missing kernels; gives what ``prefers_plain`` does."""
+    """Count a run that begins now, or let a process compile its missing kernels; whether it is on the plain memory."""
     if not _has_choice(memory, checked=checked):
         return False
     little, missing = _PROCESS.short_work + work <= PLAIN_WORK, warm_up(checked=checked)

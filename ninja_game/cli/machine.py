@@ -19,54 +19,12 @@ import click
 from ninja_game.cli.options import NEW_FILE, OLD_FILE
 from ninja_game.cli.progress import heartbeat
 from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.files.bundled import asset_text
 from ninja_game.files.shown_text import shown_text
 from ninja_game.runtime import cores
 
 if TYPE_CHECKING:
     from ninja_game.player.player_data import PlayerData
-
-ENTRY = """[Desktop Entry]
-Type=Application
-Name={name}
-Comment=A platformer of single screens: play, edit, replay
-Exec={command} {words} %f
-Icon=ninja-game
-Terminal=false
-Categories=Game;ArcadeGame;
-StartupWMClass=ninja-game
-MimeType={kinds};
-NoDisplay={hidden}
-"""
-
-LEVEL_TYPE = "text/x-ninja-game-level"
-REPLAY_TYPE = "text/x-ninja-game-replay"
-
-ENTRIES = {
-    "ninja-game.desktop": ("ninja-game", "play", LEVEL_TYPE, "false"),
-    "ninja-game-replay.desktop": ("ninja-game: watch", "play --replay", REPLAY_TYPE, "true"),
-}
-"""Files of the menu: name, words after the program, type of file, whether the menu leaves it out."""
-
-_TYPES = f"""<?xml version="1.0" encoding="UTF-8"?>
-<mime-info xmlns="http://www.freedesktop.org/standards/shared-mime-info">
-  <mime-type type="{LEVEL_TYPE}">
-    <comment>level of ninja-game</comment>
-    <sub-class-of type="text/plain"/>
-    <icon name="ninja-game"/>
-    <magic priority="60"><match type="string" offset="0" value="ninja-game level "/></magic>
-    <glob pattern="*.level"/>
-    <glob pattern="*.nlevel"/>
-  </mime-type>
-  <mime-type type="{REPLAY_TYPE}">
-    <comment>replay of ninja-game</comment>
-    <sub-class-of type="text/plain"/>
-    <icon name="ninja-game"/>
-    <magic priority="60"><match type="string" offset="0" value="ninja-game replay "/></magic>
-    <glob pattern="*.replay.txt"/>
-    <glob pattern="*.replay"/>
-  </mime-type>
-</mime-info>
-"""
 
 _ICON = 256  # width and height of the icon, px
 
@@ -121,10 +79,10 @@ def desktop_files(folder: Path, program: list[str]) -> dict[Path, str | bytes]:
 
     command = " ".join(map(_quoted, program))
     files: dict[Path, str | bytes] = {
-        folder / "applications" / file: ENTRY.format(name=name, command=command, words=words, kinds=kind, hidden=hidden)
-        for file, (name, words, kind, hidden) in ENTRIES.items()
+        folder / "applications" / name: asset_text(f"desktop/{name}").format(command=command)
+        for name in ("ninja-game.desktop", "ninja-game-replay.desktop")
     }
-    files[folder / "mime" / "packages" / "ninja-game.xml"] = _TYPES
+    files[folder / "mime" / "packages" / "ninja-game.xml"] = asset_text("desktop/ninja-game.xml")
     files[folder / "icons" / "hicolor" / f"{_ICON}x{_ICON}" / "apps" / "ninja-game.png"] = png_of(icon(_ICON))
     return files
 

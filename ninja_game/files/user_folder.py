@@ -61,12 +61,10 @@ def folder_from_variable(variable: str, otherwise: Callable[[], Path]) -> Path:
         raise FileError(what, found=named or "", expected="a path" if named else "", hint=hint) from None
 
 
-def make_user_folder(folder: Path | None = None) -> Path:
-    """The folder with its parents, made if they are missing. Raises OSError if that is impossible."""
-    folder = user_folder() if folder is None else folder
+def make_user_folder(folder: Path) -> None:
+    """Make the folders in it, with its parents, if they are missing. Raises OSError if that is impossible."""
     for name in (LEVELS, REPLAYS, EXPORTS):
         (folder / name).mkdir(parents=True, exist_ok=True)
-    return folder
 
 
 def quarantine(path: Path, why: str) -> Path:

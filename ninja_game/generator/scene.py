@@ -14,6 +14,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from ninja_game.formats.ascii.legend import TILE_OF_CHAR
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
+from ninja_game.formats.ascii.places import READING_ORDER
 from ninja_game.generator.shaping import SAMPLES, Ink
 from ninja_game.sim import kinds
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside, middle_of
@@ -275,14 +276,11 @@ class Scene:
     def runs(self) -> list[FloorRun]:
         """The floors in reach, in reading order."""
         floors: list[FloorRun] = []
-        for row in range(1, ROWS + 1):
-            for column in range(1, COLUMNS + 1):
-                if not self.can_stand((column, row)):
-                    continue
-                if floors and floors[-1].row == row and floors[-1].column + floors[-1].length == column:
-                    floors[-1] = floors[-1]._replace(length=floors[-1].length + 1)
-                else:
-                    floors.append(FloorRun(column, row, 1))
+        for column, row in filter(self.can_stand, READING_ORDER):
+            if floors and floors[-1].row == row and floors[-1].column + floors[-1].length == column:
+                floors[-1] = floors[-1]._replace(length=floors[-1].length + 1)
+            else:
+                floors.append(FloorRun(column, row, 1))
         return floors
 
     @cached_property

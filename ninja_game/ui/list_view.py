@@ -158,3 +158,27 @@ class ListView(Widget):
             top = y + (h - length) * self.first / (self.lines - self.visible_lines)
             theme.canvas.fill_rect(surface, theme.palette.panel_edge, x + w - BAR_WIDTH, y, BAR_WIDTH - 3, h, 2)
             theme.canvas.fill_rect(surface, theme.palette.accent, x + w - BAR_WIDTH, top, BAR_WIDTH - 3, length, 2)
+
+
+class NameList(ListView):
+    """A list of names, the selected one bold, beside what it shows; ``size``: of the letters, logical px."""
+
+    def __init__(
+        self,
+        area: Area,
+        row_height: float,
+        names: Sequence[str],
+        size: float,
+        selected: Callable[[int], object],
+        choose: Callable[[int], object] = lambda _: None,
+    ) -> None:
+        super().__init__(area, row_height, self._draw_name, choose, selected=selected)
+        self._names, self._size = names, size
+
+    def _draw_name(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        (x, y, w, h), chosen, size = area, index == self.index, self._size
+        if chosen:
+            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
+        height = min(h, theme.common_height(self._names, size, w - 10))
+        top = y + (h - size) // 2
+        theme.text(surface, self._names[index], x + 8, top, size=size, bold=chosen, width=w - 10, height=height)

@@ -14,8 +14,10 @@ import pygame
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.cli.machine import LEVEL_TYPE, REPLAY_TYPE, desktop_files, program_words
+from ninja_game.cli.machine import desktop_files, program_words
 from ninja_game.cli.main import cli
+
+LEVEL_TYPE, REPLAY_TYPE = "text/x-ninja-game-level", "text/x-ninja-game-replay"
 
 
 @pytest.fixture

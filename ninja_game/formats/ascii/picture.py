@@ -7,13 +7,13 @@ mistakes and reports them together, so that a level maker can fix them in one go
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_glyphs
 from ninja_game.formats.ascii.object_lines import ListedObject, OddTile
-from ninja_game.formats.ascii.places import shown
+from ninja_game.formats.ascii.places import READING_ORDER, shown
 from ninja_game.sim.grid import Cell, middle_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
@@ -100,10 +100,6 @@ class Picture(NamedTuple):
     def where(self, cell: Cell) -> tuple[int, int]:
         """Line and column (from 1) of a cell in the file."""
         return self.lines[cell[1] - 1], self.columns[cell[1] - 1] + cell[0] - 1
-
-    def cells(self) -> Iterator[Cell]:
-        """All cells in reading order."""
-        return ((column, row) for row in range(1, ROWS + 1) for column in range(1, COLUMNS + 1))
 
     def tiles(self) -> list[int]:
         """713 tile ids, column by column; cells of objects are empty, and an odd tile counts as empty here."""
@@ -216,7 +212,7 @@ def merge_picture_and_list(
     """
     mentioned, conflicts = _mentioned(picture, objects, problems)
     drawn: list[tuple[Cell, Symbol]] = []
-    for cell in picture.cells():
+    for cell in READING_ORDER:
         symbol = SYMBOL_OF_CHAR.get(picture.char(cell))
         if symbol is None or cell in mentioned:
             continue
@@ -319,7 +315,7 @@ def _tiles(picture: Picture, listed: Iterable[OddTile], problems: Problems) -> l
             problems.add(mistake, tile.line, tile.column, found=f"{column},{row}", hint=hint)
             continue
         tiles[(column - 1) * ROWS + row - 1] = tile.id
-    for cell in picture.cells():
+    for cell in READING_ORDER:
         if picture.char(cell) == ODD_TILE and cell not in seen:
             hint = f"add a line below the picture: tile {cell[0]},{cell[1]} id 70, or draw another character"
             problems.add("an odd tile without its line", *picture.where(cell), found=repr(ODD_TILE), hint=hint)

@@ -14,6 +14,9 @@ from ninja_game.sim.rules import CELL, HALF
 _NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
 _MAX_SHOWN = 40
 
+READING_ORDER: list[Cell] = [(column, row) for row in range(1, ROWS + 1) for column in range(1, COLUMNS + 1)]
+"""All cells of a level, row by row."""
+
 
 def shown(text: str) -> str:
     """A word of the file in quotes, truncated if it is long."""

@@ -32,7 +32,7 @@ from ninja_game.formats.ascii.object_lines import (
     read_object_line,
 )
 from ninja_game.formats.ascii.picture import FRAME, point_of
-from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
+from ninja_game.formats.ascii.places import READING_ORDER, number_text, place_text, read_cell, same_bits
 from ninja_game.formats.lines import header_text
 from ninja_game.sim import kinds
 from ninja_game.sim.grid import Cell
@@ -108,11 +108,7 @@ def _tile_char(number: int) -> str:
 
 def picture_rows(level: Level, parts: Sequence[Sequence[PlacedCharacter]]) -> list[str]:
     """Rows of characters; if several objects share a cell, the first one shows."""
-    cells = {
-        (column, row): _tile_char(level.tile(column, row))
-        for row in range(1, ROWS + 1)
-        for column in range(1, COLUMNS + 1)
-    }
+    cells = {cell: _tile_char(level.tile(*cell)) for cell in READING_ORDER}
     for char, column, row in (part for group in parts for part in group):
         if cells[column, row] == ".":
             cells[column, row] = char
@@ -122,11 +118,10 @@ def picture_rows(level: Level, parts: Sequence[Sequence[PlacedCharacter]]) -> li
 def tile_lines(level: Level) -> list[str]:
     """A line for each odd tile id, with all its cells."""
     places: dict[int, list[str]] = {}
-    for row in range(1, ROWS + 1):
-        for column in range(1, COLUMNS + 1):
-            number = level.tile(column, row)
-            if _tile_char(number) == ODD_TILE:
-                places.setdefault(number, []).append(f"{column},{row}")
+    for column, row in READING_ORDER:
+        number = level.tile(column, row)
+        if _tile_char(number) == ODD_TILE:
+            places.setdefault(number, []).append(f"{column},{row}")
     return [f"tile {' '.join(cells)} id {number}" for number, cells in places.items()]
 
 

@@ -90,7 +90,8 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     if not text.startswith("A"):
         raise DemoError("not a legacy demo", column=1, found=repr(text[:1]), expected="'A'")
     # Defect (b): a last 3 is dropped even if it was not padding, and with it the rest of its run.
-    digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
+    pairs = _digits_of_chars(text).removesuffix(_PADDING)
+    digits = _DIGIT_RUN.sub(lambda run: run[1] * (int(run[2], 8) + _RUN_OFFSET) if run[1] else "", pairs)
     _check_length(len(digits))
     inputs = with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT))
     return fit_demo(inputs, float(len(digits)) if length is None else length)
@@ -123,11 +124,6 @@ def _pair(text: str, place: int) -> str:
         found, expected = repr(text[place]) if code else "the end of the text", 'one of " to b, no backslash'
         raise DemoError("a character that no legacy demo has here", column=place + 1, found=found, expected=expected)
     return f"{code - _FIRST_PAIR - (code > _BACKSLASH):02o}"
-
-
-def _expanded(run: re.Match[str]) -> str:
-    """The digits of a run; empty for an incomplete one."""
-    return run[1] * (int(run[2], 8) + _RUN_OFFSET) if run[1] else ""
 
 
 def _check_length(digits: int) -> None:

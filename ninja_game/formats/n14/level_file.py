@@ -115,7 +115,8 @@ def _read_record(part: str, number: int, line: int, file: str) -> LevelRecord | 
     level = _level_text(fields[3], closed=last > 3) if not demo or place == 4 else ""
     if not level and not demo:
         raise LevelError(f"record {number} has no level string", file=file, line=line, expected=_SHAPE)
-    name, author, comment = (_one_line(field) for field in [*fields, "", "", ""][:3])
+    words = (" ".join(map(str.strip, _LINE_BREAK.split(field))).strip() for field in [*fields, "", "", ""][:3])
+    name, author, comment = words
     if (longest := max(len(name), len(author))) > MAX_NAME:
         what = f"record {number} has a name of {longest:,} characters"
         raise LevelError(what, file=file, line=line, expected=f"at most {MAX_NAME:,}")
@@ -123,11 +124,6 @@ def _read_record(part: str, number: int, line: int, file: str) -> LevelRecord | 
         comment = ""
     note = fields[4].strip() if last >= 4 and not demo else ""
     return LevelRecord(name, author, comment, level, demo, number, line, note)
-
-
-def _one_line(text: str) -> str:
-    """The text without line breaks and the white space around them."""
-    return " ".join(line.strip() for line in _LINE_BREAK.split(text)).strip()
 
 
 def _find_demo(fields: list[str]) -> tuple[int, str]:

@@ -16,7 +16,7 @@ import pygame
 
 from ninja_game import sim
 from ninja_game.backend.plain import load_plain
-from ninja_game.files.bundled import data_folder
+from ninja_game.files.bundled import asset_text
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.player.settings import Settings
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
@@ -235,7 +235,7 @@ Value = TypeVar("Value")
 
 @cache
 def figure_texts() -> dict[str, dict[str, Any]]:
-    return tomllib.loads((data_folder("assets") / "lab" / "figures.toml").read_text("utf-8"))
+    return tomllib.loads(asset_text("lab/figures.toml"))
 
 
 class FigureSetting(Generic[Value]):

@@ -21,7 +21,7 @@ from ninja_game.play.replay.playback import RunClock
 from ninja_game.play.window import save_picture
 from ninja_game.player.settings import Settings
 from ninja_game.ui.canvas import HEIGHT, WIDTH
-from ninja_game.ui.list_view import ListView
+from ninja_game.ui.list_view import NameList
 from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import Button, Choice, Slider, Widget
 from ninja_game.view.level_view import OffscreenContext
@@ -39,7 +39,8 @@ class LabScreen(MenuScreen):
     def __init__(self, app: App, name: str = "") -> None:
         super().__init__(app)
         self.figures = [make() for make in FIGURES.values()]
-        self.list = ListView((44, 62, 158, 20 * len(FIGURES)), 20, self._draw_row, self._choose, selected=self._show)
+        names = [figure.title for figure in self.figures]
+        self.list = NameList((44, 62, 158, 20 * len(FIGURES)), 20, names, 11, self._show, self._choose)
         self.list.hint = "Up and down choose a figure, right goes to it"
         self.list.index = list(FIGURES).index(name) if name else 0
         self.clock = RunClock()
@@ -112,14 +113,6 @@ class LabScreen(MenuScreen):
             y = _NUMBERS_TOP + _LINE * place
             theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=120)
             theme.text(surface, value, x + 124, y, size=9.5, width=CONTROLS[0] - x - 132)
-
-    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        x, y, w, h = area
-        chosen = index == self.list.index
-        if chosen:
-            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        height = theme.common_height([figure.title for figure in self.figures], 11, w - 12)
-        theme.text(surface, self.figures[index].title, x + 8, y + 4, size=11, bold=chosen, width=w - 12, height=height)
 
 
 class FigureArea(Widget):

@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.files.bundled import data_folder
+from ninja_game.files.bundled import asset_text, data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.levels.episodes import GAME, Entry
 from ninja_game.play.app import App
 from ninja_game.play.thumbnails import ThumbnailScreen
 from ninja_game.sim.grid import middle_of
-from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Theme
+from ninja_game.ui.list_view import NameList
+from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import Button, Widget
 
 FILE = "good-levels.toml"
@@ -37,7 +37,7 @@ class GoodLevel(NamedTuple):
 
 
 def read_good_levels() -> list[GoodLevel]:
-    tables = tomllib.loads((data_folder("assets") / FILE).read_text("utf-8"))["level"]
+    tables = tomllib.loads(asset_text(FILE))["level"]
     files = [data_folder("levels") / f"{table['file']}.txt" for table in tables]
     entries = [Entry(load_levels(file)[0], GAME) for file in files]
     return [GoodLevel(entry, table["about"], table["notes"]) for entry, table in zip(entries, tables, strict=True)]
@@ -52,7 +52,8 @@ class GoodLevelsScreen(ThumbnailScreen):
         super().__init__(app)
         self._edit = edit
         self.levels = read_good_levels()
-        self.list = ListView((36, 66, 160, 10 * 30), 30, self._draw_name, lambda _: None, selected=self._show)
+        titles = [level.entry.title for level in self.levels]
+        self.list = NameList((36, 66, 160, 10 * 30), 30, titles, 11, self._show)
         self.list.hint = "Up and down: another level"
         self.list.fill(self.levels)
 
@@ -86,10 +87,3 @@ class GoodLevelsScreen(ThumbnailScreen):
             theme.canvas.circle(surface, palette.background, (x, y), 9, 1.5)
             theme.text(surface, str(number), x, y - 5.5, size=11, bold=True, align="centre", colour=palette.background)
         theme.paragraph(surface, self.level.texts, (left, top + height + 5, width, 560 - top - height), 9.5, 12.5)
-
-    def _draw_name(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        x, y, w, h = area
-        chosen = index == self.list.index
-        if chosen:
-            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        theme.text(surface, self.levels[index].entry.title, x + 8, y + 9, size=11, bold=chosen, width=w - 10)

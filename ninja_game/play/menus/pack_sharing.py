@@ -172,11 +172,6 @@ class ZipsScreen(FilesScreen):
         install_received(self._desk, lambda: Pack(path))
 
 
-def choose_zip(desk: PackDesk) -> None:
-    """Choose a zip that was received."""
-    desk.app.push(ZipsScreen(desk))
-
-
 def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
     """Install a received pack among the player's, instead of an older version if the player agrees."""
     try:

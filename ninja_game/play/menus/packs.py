@@ -76,7 +76,7 @@ class PackScreen(PackDesk):
         hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         paste = button(300, 64, "Paste link", pack_sharing.paste, hint)
         hint = "A zip that somebody sent you; it can be dropped here too"
-        unzip = button(368, 74, "Open a zip...", pack_sharing.choose_zip, hint)
+        unzip = button(368, 74, "Open a zip...", lambda desk: desk.app.push(pack_sharing.ZipsScreen(desk)), hint)
         if not pack:
             for row, large in enumerate((new, paste, unzip)):
                 large.area, large.size = (276, 220 + 56 * row, 240, 44), 14

@@ -11,7 +11,7 @@ import pygame
 
 from ninja_game import __version__
 from ninja_game.errors import LevelError
-from ninja_game.files.bundled import data_folder
+from ninja_game.files.bundled import asset_text
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.app import App
@@ -24,7 +24,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import ACTIONS
 from ninja_game.ui.input.gamepad import pad_label
-from ninja_game.ui.list_view import ListView
+from ninja_game.ui.list_view import ListView, NameList
 from ninja_game.ui.scenery import draw_scenery
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
@@ -46,9 +46,7 @@ class Page:
 
 def read_pages() -> list[Page]:
     """The pages of the bundled file. Raises LevelError that names an invalid page."""
-    path = data_folder("assets") / PAGES_FILE
-    tables = tomllib.loads(path.read_text("utf-8"))["page"]
-    return [_page(table, str(path)) for table in tables]
+    return [_page(table, PAGES_FILE) for table in tomllib.loads(asset_text(PAGES_FILE))["page"]]
 
 
 def _page(table: dict[str, Any], file: str) -> Page:
@@ -113,7 +111,7 @@ class HelpScreen(MenuScreen):
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
         x, y, w, _ = WINDOW
-        self.list = ListView((44, 66, 190, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
+        self.list = NameList((44, 66, 190, 18 * 26), 26, self.topics, 11.5, self._show)
         self.list.hint = "Up and down: choose a topic"
         self.works = Button((x + w - 150, 516, 150, 30), "How it works", self._open_lab)
         self.works.hint = "For the curious: how ninja and walls really meet, in figures you can move"
@@ -168,14 +166,6 @@ class HelpScreen(MenuScreen):
             return
         theme.text(surface, self.page.title, x, y + h + 54, size=18, bold=True)
         theme.paragraph(surface, self.page.text, (x, y + h + 84, w, 64), 12.5, 19)
-
-    def _draw_topic(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        x, y, w, h = area
-        chosen = index == self.list.index
-        if chosen:
-            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
-        height = min(h, theme.common_height(self.topics, 11.5, w - 10))
-        theme.text(surface, self.topics[index], x + 8, y + 7, size=11.5, bold=chosen, width=w - 10, height=height)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette

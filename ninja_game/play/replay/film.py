@@ -202,7 +202,7 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
 def write_film(
     films: Sequence[Film], path: Path, report: Callable[[int, int], bool] = lambda _made, _count: True
 ) -> bool:
-    """Write films, one after the other, to ``path``: a .gif, .webm, .mp4, or without suffix a folder of PNG pictures.
+    """Write films, one after the other, to ``path``: a .gif, .webm, .mp4, or a folder of pictures, 00000.png, ….
 
     Size, speed and colours are those of the first. ``report`` gets the numbers of pictures made and to make; if it
     gives False, the film is cancelled: this gives False and leaves no file. Raises NinjaGameError for another suffix,
@@ -226,7 +226,9 @@ def write_film(
         elif path.suffix:
             raise NinjaGameError(f"{path}: a film is a .gif, .webm, .mp4, or a folder of pictures (no suffix)")
         else:
-            write_folder(pictures(), path)
+            folder = Tree(path)
+            for number, picture in enumerate(pictures()):
+                folder.write(f"{number:05d}.png", png_of(picture))
     except _StoppedError:
         return False
     return True
@@ -309,13 +311,6 @@ def write_video(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int,
                 container.mux(stream.encode(av.VideoFrame.from_ndarray(pixels, format="rgb24")))
         container.mux(stream.encode(None))
     write_atomically(path, film.getvalue())
-
-
-def write_folder(pictures: Iterator[pygame.Surface], path: Path) -> None:
-    """Write pictures into a folder as 00000.png, 00001.png, … Raises OSError."""
-    folder = Tree(path)
-    for number, picture in enumerate(pictures):
-        folder.write(f"{number:05d}.png", png_of(picture))
 
 
 def film_colours(palette: Palette, ghosts: Sequence[int] = ()) -> list[int]:

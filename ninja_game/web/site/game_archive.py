@@ -139,7 +139,7 @@ def library_zip(files: Mapping[str, bytes]) -> bytes:
 NOT_IN_PAGE = {
     "package": ("batch/", "board/", "cli/", "learn/", "search/", "tas", "web/board/", "web/page", "web/site/"),
     "levels": (),
-    "assets": ("bench.", "generated.tsv.xz", "sounds/music/"),
+    "assets": ("bench.", "desktop/", "generated.tsv.xz", "sounds/music/"),
 }
 """Files of the package and its data that a page does not need: how their names begin."""
 
