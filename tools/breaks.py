@@ -96,6 +96,8 @@ def _equivalent(tree: ast.AST) -> Iterator[ast.AST]:
                 # None is as false.
                 returns = (part for part in ast.walk(node) if isinstance(part, ast.Return))
                 yield from (part for part in returns if getattr(part.value, "value", None) is False)
+            case ast.keyword("repr", value):
+                yield value
             case ast.Call(func=ast.Name("zip"), keywords=[ast.keyword("strict", ast.Constant(True) as value)]):
                 yield value
             case ast.Compare() if CLOCK.search(ast.unparse(node)):

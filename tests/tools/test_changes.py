@@ -34,6 +34,7 @@ def test_every_random_break_is_a_program() -> None:
         ("def f() -> bool | None:\n    return False", {"True", "return None"}),
         ("def f() -> bool:\n    return True", {"False", "return None"}),
         ("def __repr__(self):\n    return 1", set()),
+        ("f(repr=False)", {"pass"}),
         ("zip(a, b, strict=True)", {"pass"}),
         ("zip(a, b, strict=False)", {"pass", "True"}),
         ("f(a, strict=True)", {"pass", "False"}),

@@ -202,6 +202,19 @@ def test_without_npm_the_command_says_what_to_do(tmp_path: Path, monkeypatch: py
     assert CliRunner().invoke(cli, ["site"]).exit_code == 2
 
 
+def test_what_npm_gives_is_kept(pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def npm(*_: object, cwd: str, **__: object) -> Mock:
+        with tarfile.open(Path(cwd) / "pyodide.tgz", "w:gz") as package:
+            package.add(pyodide, "package")
+        return Mock(returncode=0)
+
+    monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: "npm")
+    monkeypatch.setattr("ninja_game.web.site.game_archive.subprocess.run", run := Mock(side_effect=npm))
+    files = [game_archive.pyodide_files(folder, tmp_path / "cache") for folder in (None, None, pyodide)]
+    assert files[0] == files[1] == files[2]
+    run.assert_called_once()
+
+
 @pytest.fixture
 def server(tmp_path: Path) -> ThreadingHTTPServer:
     (tmp_path / "a.wasm").write_bytes(b"\0asm")
