@@ -67,6 +67,8 @@ def test_a_dragged_brush_draws_every_cell_on_its_way_and_one_undo_takes_it_back(
     assert tools.draft == Draft(Level())
     tools.redo()
     assert tools.draft.tile((2, 1)) == 1
+    tools.move(-5, -5)
+    assert tools.pointer == (0, 0)
 
 
 def test_a_rectangle_shrinks_while_it_is_drawn(tools: EditorTools) -> None:

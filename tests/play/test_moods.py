@@ -231,14 +231,14 @@ def test_a_chosen_palette_is_the_same_in_every_column(app: App) -> None:
         assert app.theme.palette is PALETTES["dark"]
 
 
-def test_thumbnails_have_the_mood_of_their_level(app: App) -> None:
+def test_thumbnails_have_the_mood_of_their_level(app: App, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.play.thumbnails.perf_counter", lambda: 9.0)
     thumbnails = Thumbnails(app)
     named = app.player.catalogue.ours.levels[0].named
     entries = [Entry(named, "game", f"{10 * column:02d}-0") for column in range(5)]
     for entry in entries:
         thumbnails.get(entry, 60)
-    while thumbnails.work():
-        pass
+    assert thumbnails.work()
     pictures = [thumbnails.get(entry, 60) for entry in entries]
     assert len({pygame.image.tobytes(picture, "RGB") for picture in pictures if picture}) == 5
 

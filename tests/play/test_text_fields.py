@@ -188,6 +188,9 @@ def test_a_long_text_shows_the_part_with_the_cursor(at: Writer) -> None:
     pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="abcdefgh " * 15))
     at.frames(2)
     assert field._first > 50
+    for _ in range(40):
+        at.key("backspace")
+        assert field._first + len(field._stops) - 1 == len(field.text), "the end is in sight"
     at.key("home")
     assert field._first == 0
     right = at.place(-1)

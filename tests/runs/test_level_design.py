@@ -78,6 +78,7 @@ def test_bays_that_repeat_are_counted_without_overlaps() -> None:
     bay = {9: "..s##a..s##a..s##a..s##a", 10: "..####..####..####..####"}
     assert hall(rows=bay).bays >= 4
     assert hall(rows={9: "..s##a", 10: "..####"}).bays == 1
+    assert hall(rows={3: "..s##a.........s##a", 4: "...##...........##"}).bays == 2, "six tiles are a bay"
 
 
 def test_space_that_nobody_uses() -> None:

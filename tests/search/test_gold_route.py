@@ -29,7 +29,7 @@ from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.legs import UNBOUNDED, Checkpoint, Frontier, Leg
 from ninja_game.search.local_search import LocalSearch
 from ninja_game.search.nodes import Resolution, open_start
-from ninja_game.search.route import Route
+from ninja_game.search.route import ROUTE_LEGS, Route
 from ninja_game.search.searching import Search
 from ninja_game.search.solve import solve
 from ninja_game.search.task import COOLING, FIRST_RUN_SEARCHES, OTHER_ROUTES, Progress, Task, obstacle
@@ -156,6 +156,20 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
     found = ends(wanted=far)
     assert found.count(far) >= 4
     assert found.count(0) <= OTHER_ENDS
+
+
+def test_a_frontier_is_searched_finer_and_finer(monkeypatch: pytest.MonkeyPatch) -> None:
+    start = open_start(PIT, box=False)
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    begun: list[Resolution] = []
+    monkeypatch.setattr(search, "begin_leg", lambda _, resolution, **__: begun.append(resolution))
+    monkeypatch.setattr(search, "run_leg", lambda *_, **__: None)
+    monkeypatch.setattr(search, "ends", list)
+    route = Route(search, gold=1, seed=1)
+    for _ in range(8):
+        route.step(lambda _: False)
+    resolutions = [resolution for resolution, _ in ROUTE_LEGS]
+    assert begun == [*resolutions, *resolutions[-1:] * 2]
 
 
 def test_the_exit_is_opened_last() -> None:

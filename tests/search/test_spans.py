@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from unittest.mock import patch
 from zlib import crc32
 
 import numpy as np
@@ -140,3 +141,8 @@ def test_a_way_to_the_exit_is_found_along_a_run_beside() -> None:
     assert run_level(LEVEL, STANDING[:15] + keys).ticks < own - 20
     results = search_span(task, lambda _, ways: all(way.own_route for way in ways))
     assert any(not way.own_route and way.ticks < own - 35 for way in results)
+    right = bytes([2] * 240)
+    routes = OtherRoutes(SpanTask(LEVEL, right[:30] + STANDING, 30, 90, "won", others=(right,)), seed=1)
+    with patch.object(routes._searches, "search", return_value=None) as search:
+        routes.search(never)
+    assert search.call_args.args[:2] == (30, verified_run(LEVEL, right).ticks), "to where the run beside has won"

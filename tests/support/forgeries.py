@@ -133,7 +133,7 @@ FORGERIES = {
     "a death that was none": (replay_of_walk(outcome="dead"), "outcome"),
     "an exit that was none": (replay(WALKING[:-3], outcome="exit"), "outcome"),
     "an end too early": (replay_of_walk(final_tick=WALK_END - 2, inputs=WALKING[:-1]), "outcome"),
-    "an end too late": (replay_of_walk(final_tick=WALK_END + 5), "the run ends here"),
+    "an end too late": (replay_of_walk(final_tick=WALK_END + 5), f"tick {WALK_END}: the run ends here"),
     "a digest of nothing": (replay_of_walk(digest="0" * 64), "digest"),
     "the digest of another run": (replay_of_walk(inputs=b"\1" + WALKING, final_tick=WALK_END + 1), "digest"),
     "a waypoint elsewhere": (replay(waypoints=waypoint()), "ninja: x"),

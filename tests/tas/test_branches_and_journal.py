@@ -159,7 +159,10 @@ def test_damaged_journals_give_only_edits_that_there_were(session: TasSession, t
 
 
 def test_a_run_goes_on_where_a_killed_session_was(session: TasSession, tmp_path: Path) -> None:
+    session.begin()
     session.change(session.track.replaced(2, 3, [5]))
+    session.redo()  # there is nothing, and the stroke ends
+    session.change(session.track.replaced(5, 6, [1]))
     session.keep_branch("one")
     session.begin()
     for tick in range(5):
@@ -169,7 +172,7 @@ def test_a_run_goes_on_where_a_killed_session_was(session: TasSession, tmp_path:
     session.journal.close(keep=True)
     (found,) = lost_runs(tmp_path)
     assert found.tracks[-1] == stroke, "also in the middle of a stroke"
-    assert len(found.tracks) == 2
+    assert len(found.tracks) == 3
     again = TasSession(found.opened, tmp_path, memory="plain")
     again.recover(found)
     assert again.file.path == tmp_path / "walk.replay.txt"

@@ -27,6 +27,28 @@ def test_every_random_break_is_a_program() -> None:
         assert ast.dump(broken) != ast.dump(ast.parse(source))
 
 
+@pytest.mark.parametrize(
+    "text, drawn",
+    [
+        ("def f() -> bool:\n    return False", {"True"}),
+        ("def f() -> bool | None:\n    return False", {"True", "return None"}),
+        ("def f() -> bool:\n    return True", {"False", "return None"}),
+        ("def __repr__(self):\n    return 1", set()),
+        ("f(repr=False)", {"pass"}),
+        ("zip(a, b, strict=True)", {"pass"}),
+        ("zip(a, b, strict=False)", {"pass", "True"}),
+        ("f(a, strict=True)", {"pass", "False"}),
+        ("while monotonic() - start < end: f()", {"(monotonic() + start)", "pass"}),
+    ],
+)
+def test_what_changes_nothing_is_not_drawn(
+    text: str, drawn: set[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "a.py").write_text(text)
+    monkeypatch.setattr(breaks, "ROOT", tmp_path)
+    assert {broken.new for broken in breaks.breaks_of("a.py")} == drawn
+
+
 def test_a_break_is_tried_on_the_tests_that_execute_its_line_fastest_first(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -61,6 +61,7 @@ def test_a_whole_episode_is_ranked_and_its_levels_count_too(runs: Path, tmp_path
     board(runs, PACK, "--site", str(tmp_path / "site"))
     page = (tmp_path / "site" / "board" / "episodes.html").read_text("utf-8")
     assert "in one recording" in page
+    assert "Episodes</a>" in page
     (tmp_path / "rules.toml").write_text('[[category]]\nname = "Most"\nrank = ["-score"]\nepisodes = true\n')
     board(runs, PACK, "--site", str(tmp_path / "most"), "--rules", str(tmp_path / "rules.toml"))
     heads = [

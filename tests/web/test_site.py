@@ -6,6 +6,8 @@ import gzip
 import io
 import json
 import re
+import subprocess
+import sys
 import tarfile
 import threading
 import urllib.error
@@ -26,7 +28,7 @@ from ninja_game.files.bundled import bundled_replays, data_folder
 from ninja_game.files.reading import digest_of
 from ninja_game.runtime import PACKAGE
 from ninja_game.web.pages.documents import Documents
-from ninja_game.web.site import build, game_archive
+from ninja_game.web.site import build, compiling, game_archive
 from ninja_game.web.site.build import site_server
 from ninja_game.web.site.game_archive import NOT_IN_PAGE
 from tests.support.slow import the_rest_is_slow
@@ -200,6 +202,30 @@ def test_without_npm_the_command_says_what_to_do(tmp_path: Path, monkeypatch: py
     assert "npm, which gets Pyodide, is not installed" in result.stderr
     assert "--pyodide FOLDER" in result.stderr
     assert CliRunner().invoke(cli, ["site"]).exit_code == 2
+
+
+def test_bytecode_runs_without_its_source_and_is_made_for_both_folders(tmp_path: Path) -> None:
+    for name in ("library", "game"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / f"{name}_of_page.py").write_text("")
+    subprocess.run([sys.executable, compiling.__file__], cwd=tmp_path, check=True)
+    for source in tmp_path.glob("*/*.py"):
+        source.unlink()
+    program = "import sys; sys.path[:0] = ['library', 'game']; import library_of_page, game_of_page"
+    subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=True)
+
+
+def test_what_npm_gives_is_kept(pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def npm(*_: object, cwd: str, **__: object) -> Mock:
+        with tarfile.open(Path(cwd) / "pyodide.tgz", "w:gz") as package:
+            package.add(pyodide, "package")
+        return Mock(returncode=0)
+
+    monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: "npm")
+    monkeypatch.setattr("ninja_game.web.site.game_archive.subprocess.run", run := Mock(side_effect=npm))
+    files = [game_archive.pyodide_files(folder, tmp_path / "cache") for folder in (None, None, pyodide)]
+    assert files[0] == files[1] == files[2]
+    run.assert_called_once()
 
 
 @pytest.fixture

@@ -392,7 +392,7 @@ class EditorSession:
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
-    def tried(self, level: Level, inputs: bytes, *, over: bool = False) -> None:
+    def tried(self, level: Level, inputs: bytes, *, over: bool) -> None:
         """Show the route and death of a test that was left or is ``over``.
 
         A test that continues after that is the same one.

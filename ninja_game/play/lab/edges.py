@@ -208,7 +208,7 @@ class WalkingEnemies(Figure):
         """Dragging does nothing; only a press does."""
 
     def toggle(self, door: Object) -> None:
-        door.switched = 1 - door.switched
+        door.switched = not door.switched
         write_edges(self.stage.world, door, not door.switched)
 
     def demonstrate(self, tick: int) -> None:

@@ -78,8 +78,7 @@ class Rack(ListView):
 
     def release(self) -> None:
         """The button is released without a drag."""
-        was_clicked, self._again = self._again, False
-        if was_clicked:
+        if self._again:
             self.choose(self.index)
 
     @property

@@ -104,40 +104,40 @@ STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
 
 
 class EventWord(NamedTuple):
-    """``rank``: the lower, the more important; ``chip``: background's role in the palette; ``ink``: the letters'."""
+    """``chip``: background's role in the palette; ``ink``: the letters'."""
 
-    rank: int
     word: str
     chip: str = ""
     ink: str = "outline"
 
 
-_WORDS = {
-    "died": EventWord(0, "died", "bad", "panel"),
-    "won": EventWord(0, "exit", "good", "panel"),
-    "exit-opened": EventWord(1, "switch", "exit_light"),
-    "gold-taken": EventWord(2, "gold", "gold_light"),
-    "lock-opened": EventWord(3, "lock", "exit_light"),
-    "trap-closed": EventWord(3, "trap", "warning"),
-    "door-opened": EventWord(4, "door"),
-    "launched": EventWord(5, "pad"),
-    "jumped": EventWord(5, "jump"),
-    "wall-jumped": EventWord(5, "wall jump"),
-    "mine-exploded": EventWord(6, "mine"),
-    "landed": EventWord(7, "land"),
-    "rocket-launched": EventWord(8, "rocket"),
-    "rocket-exploded": EventWord(8, "blast"),
-    "turret-fired": EventWord(8, "turret"),
-    "laser-on": EventWord(8, "laser"),
-    "chaingun-shot": EventWord(8, "shot"),
-    "block-woken": EventWord(9, "block"),
-    "thwump-fell": EventWord(9, "thwump"),
-    "thwump-landed": EventWord(9, "thwump"),
-    "guard-started": EventWord(9, "guard"),
-    "chase-started": EventWord(9, "chase"),
-    "door-closed": EventWord(9, "door shut"),
+EVENTS = {
+    "died": EventWord("died", "bad", "panel"),
+    "won": EventWord("exit", "good", "panel"),
+    "exit-opened": EventWord("switch", "exit_light"),
+    "gold-taken": EventWord("gold", "gold_light"),
+    "lock-opened": EventWord("lock", "exit_light"),
+    "trap-closed": EventWord("trap", "warning"),
+    "door-opened": EventWord("door"),
+    "jumped": EventWord("jump"),
+    "launched": EventWord("pad"),
+    "wall-jumped": EventWord("wall jump"),
+    "mine-exploded": EventWord("mine"),
+    "landed": EventWord("land"),
+    "rocket-exploded": EventWord("blast"),
+    "laser-on": EventWord("laser"),
+    "rocket-launched": EventWord("rocket"),
+    "chaingun-shot": EventWord("shot"),
+    "turret-fired": EventWord("turret"),
+    "block-woken": EventWord("block"),
+    "chase-started": EventWord("chase"),
+    "door-closed": EventWord("door shut"),
+    "guard-started": EventWord("guard"),
+    "thwump-fell": EventWord("thwump"),
+    "thwump-landed": EventWord("thwump"),
 }
-EVENTS = {name: _WORDS.get(name, EventWord(10, name.replace("-", " "))) for name in EVENT_NAMES}
+EVENTS |= {name: EventWord(name.replace("-", " ")) for name in sorted({*EVENT_NAMES} - EVENTS.keys())}
+"""What happened, the most important first."""
 
 
 Blit = tuple[pygame.Surface, tuple[int, int]]
@@ -320,12 +320,12 @@ class RowSheet:
         """Events, the most important first, as far as there is room; the marker's name, with one event at most."""
         palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
         x, right = left + gap + 1, left + width
-        events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
+        events = [EVENTS[name] for name in sorted(row.events.split(), key=[*EVENTS].index)]
         if row.death:
             killer, room = row.death.partition(" at ")[0], (right - x - gap) / self.theme.canvas.scale
             events[0] = events[0]._replace(word=self.theme.fit(killer, room, _SIZE, bold=True))
         if row.lead is not None and events:
-            events.insert(1, EventWord(0, f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))
+            events.insert(1, EventWord(f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))
         for event in events[:1] if row.name else events:
             dark = getattr(palette, event.ink) if event.chip else ink
             word = self.theme.lettering.rendered(event.word, _SIZE, dark, bold=bool(event.chip))

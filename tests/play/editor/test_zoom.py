@@ -9,11 +9,12 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY_PART, points
 from ninja_game.editor.stamp import Stamp, with_stamp
-from ninja_game.play.editor.sheet import GRIDS
+from ninja_game.play.editor.sheet import GRIDS, line_mark, route_mark
 from ninja_game.play.editor.view import SYMMETRY_AXES
 from ninja_game.sim.grid import Cell, Point, middle_of
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import ObjectSpec
+from ninja_game.ui.canvas import Canvas
 from tests.support.level_maker import ROOM, Maker
 
 
@@ -73,6 +74,9 @@ def test_the_wheel_zooms_about_the_pointer_and_all_can_be_seen_again(room: Maker
         assert tools.tile == tile
         assert view.camera.zoom == pytest.approx(zoom, abs=0.01)
         assert tools.pointer == pytest.approx((300, 400), abs=1.5)
+        centre = view.camera.centre
+        view.follow(300, 400)
+        assert view.camera.centre == centre, "it is well inside"
     room.chord("equals", pygame.KMOD_LCTRL)
     room.press("kp_plus")
     assert view.camera.zoom == 4
@@ -204,6 +208,26 @@ def test_a_path_is_seen_wherever_the_level_was_enlarged(near: Looker) -> None:
     near.view._laid_out = ()
     near.room.frames(1)
     assert near.room.app.surface.get_at(near.px((650, 560)))[:3] == near.room.app.theme.palette.ghost[:3]
+
+
+@pytest.mark.parametrize(
+    "name, across, down",
+    [
+        ("off", [], []),
+        ("4 cells", [120, 216, 312, 396, 408, 504, 600, 696], [120, 216, 300, 312, 408, 504]),
+        ("4 cells + 1/2", [36, 132, 228, 324, 396, 420, 516, 612, 708], [36, 132, 228, 300, 324, 420, 516]),
+        ("level / 4", [210, 396, 582], [162, 300, 438]),
+    ],
+)
+def test_lines_of_a_grid(name: str, across: list[float], down: list[float]) -> None:
+    (grid,) = (grid for grid in GRIDS if grid.name == name)
+    assert [sorted(at for upright, at, _ in grid.lines() if upright is way) for way in (True, False)] == [across, down]
+
+
+def test_a_line_over_the_level_covers_little_more_than_itself() -> None:
+    canvas, black, ends = Canvas((792, 600)), (0, 0, 0), ((100.0, 500.0), (160.0, 520.0))
+    for mark in (route_mark(canvas, black, ends), line_mark(canvas, black, ends[0], ends[1])):
+        assert pygame.Rect(100, 500, 60, 20).inflate(24, 24).contains(mark.rects[0].unionall(mark.rects[1:]))
 
 
 @pytest.mark.parametrize("zoom", [2, 4])

@@ -48,9 +48,13 @@ def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
         assert screen.demonstration is not None
         first = screen.demonstration.simulation
         driver.frames(3)
+        last = 0
         for _ in range(len(page.inputs) + 70):
+            if screen.demonstration.simulation is first:
+                last = screen.demonstration.playback.tick
             screen.update(25)
         assert screen.demonstration.simulation is not first
+        assert last == len(page.inputs) + 60, "it stands still for a second and a half"
     screen.list._select(len(PAGES))
     driver.frames(2)
     assert screen.demonstration is None

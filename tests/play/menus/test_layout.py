@@ -15,7 +15,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area
-from ninja_game.ui.widgets import Widget
+from ninja_game.ui.widgets import Slider, Widget
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 
@@ -74,6 +74,30 @@ def test_grid_with_gaps_never_selects_a_gap() -> None:
     assert cells.numbers[cells.index] == 10
     assert not cells.click(*(value + 1 for value in cells.row_area(4)[:2]))
     assert cells.numbers[cells.index] == 10
+
+
+@pytest.mark.parametrize(
+    "key, index, goal",
+    [
+        ("first", 4, 0), ("last", 4, 9), ("up", 4, 3), ("down", 4, 5), ("page_up", 4, 1), ("page_down", 4, 7),
+        ("page_up", 1, 0), ("page_down", 8, 9), ("up", 0, None), ("down", 9, None), ("left", 4, None),
+    ],
+)  # fmt: skip
+def test_keys_select_in_a_list_or_move_the_focus_on(key: str, index: int, goal: int | None) -> None:
+    rows = ListView((0, 0, 100, 60), 20, lambda *_: None, lambda _: None)
+    rows.fill(range(10))
+    rows._select(index)
+    assert (rows.nudge(key), rows.index) == (goal is not None, index if goal is None else goal)
+
+
+@pytest.mark.parametrize(
+    "key, value, goal",
+    [("left", 5, 0), ("left", 0, None), ("right", 0, 5), ("right", 18, 20), ("right", 20, 20), ("up", 5, None)],
+)
+def test_keys_step_a_number_or_move_the_focus_on(key: str, value: float, goal: float | None) -> None:
+    put: list[float] = []
+    slider = Slider((0, 0, 100, 20), "Number", (0, 20, 5), lambda: value, put.append)
+    assert (slider.nudge(key), put) == (goal is not None, [] if goal is None else [goal])
 
 
 def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:

@@ -509,6 +509,9 @@ def test_an_empty_pack_says_how_it_is_begun_and_a_free_place_makes_a_level(
     assert not [each for each in screen.widgets if getattr(each, "text", "") == "New level..."]
     driver.wait(lambda: screen.status.present, "the problems are known")
     assert "to mend: Problems, above" in drawn(driver.app)
+    screen.choose(screen.shelves.cells[-1])
+    assert driver.shown(FormPanel).title == "New episode: name"
+    driver.press("escape")
     screen.choose(screen.shelves.cells[2])
     assert driver.shown(FormPanel).title == "New level: its name"
     typed(driver, "Mortar")

@@ -88,8 +88,11 @@ def test_a_branch_is_looked_at_and_a_second_click_goes_to_it(at: TasDriver, tab:
 
 def test_an_edit_after_undo_keeps_what_was_better(at: TasDriver, tab: BranchesTab) -> None:
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
-    at.editor.edit(lambda track: track.replaced(0, 2, []))
     at.session.drop_branch(0)  # the run as it was opened, which is better
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 9))
+    at.session.undo()
+    at.session.begin()  # until it ends there is something to redo
+    at.editor.edit(lambda track: track.replaced(0, 2, []))
     better, parent = at.editor.track, at.session.branches.current
     at.session.undo()
     at.editor.edit(lambda track: track.with_key(0, 1, Input.LEFT, down=True))

@@ -175,6 +175,7 @@ def test_other_runs_are_opened_chosen_and_taken_in(at: TasDriver) -> None:
     at.frames()
     assert editor.track.inputs[:110] == before.inputs[:110]
     assert [editor.track.keys_at(tick) for tick in range(110, 120)] == [2] * 10
+    assert at.app.notice == f"Ticks 110 to 119 are those of {editor.others[0].name}"
     assert [editor.track.keys_at(k) for k in range(120, 200)] == [before.keys_at(k) for k in range(120, 200)]
     assert screen.session.undo()
     assert editor.track == before
