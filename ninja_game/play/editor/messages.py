@@ -93,7 +93,7 @@ def _listed(words: Sequence[str]) -> str:
 
 
 _HELP = (
-    "What just happened replaces what is shown; a place or a time waits until that was read.",
+    "What just happened replaces what is shown; a place or a time waits until that was read, also at the start.",
     f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(NUMBER_WORDS)} the number.",
     f"{_listed(TARGETS)} have an arrow while their message is shown.",
 )
@@ -572,13 +572,14 @@ class MessagesScreen(MenuScreen):
     def _heard(self, message: MessageRow) -> Heard | None:
         """When a message comes in the known run; None: never, without such a run, or not known yet."""
         answer, sound = self._known.result, self._sound()
-        if not answer or answer[0] != self._asked or message not in sound or message.when in {"start", "death"}:
+        if not answer or answer[0] != self._asked or message not in sound:
             return None
         return answer[1][sound.index(message)]
 
     def _wait_of(self, message: MessageRow) -> str:
         """How late a message comes in the known run because others are read first; '' if it is in time."""
-        text = late_text(moment) if (moment := self._heard(message)) else ""
+        moment = self._heard(message) if self._together(message)[0] is message else None
+        text = late_text(moment) if moment else ""
         return text[:1].upper() + text[1:]
 
     def _together(self, message: MessageRow) -> list[MessageRow]:
@@ -613,7 +614,7 @@ class MessagesScreen(MenuScreen):
 
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
         parsed, moment = self._parsed(message), self._heard(message)
-        spot = moment.spot if moment else None if parsed else self._eye(message)
+        spot = moment.spot if moment and message.when != "start" else None if parsed else self._eye(message)
         place = parsed and parsed.place
         layout = self._draft.level.tiles, self._things(stage), place, spot
         return placed_message(text, *layout, of_start=message.when == "start") if text else None

@@ -234,6 +234,7 @@ class LevelPlay:
 
     def update(self, real_ms: int) -> None:
         if self.phase is Phase.READY:
+            self.messages.add_read(self.clock.ticks_due(real_ms, self.app.tick_ms))
             self._wait_for_move()
         elif self.phase is not Phase.PAUSED:
             if self.tools.rewinding:

@@ -621,7 +621,7 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
     doors: Maker, monkeypatch: pytest.MonkeyPatch, says: str, x: int
 ) -> None:
     monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
-    opened(doors, f"start: Go | {says}")
+    opened(doors, f"death 1: Go | {says}")
     select(doors, 1)
     doors.choose("Test")
     trying = doors.shown(TryScreen)
@@ -782,6 +782,43 @@ def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Mak
         ("the message 'Three' is replaced after 0.2 s in the known run, too soon", ((10, 22),)),
         ("the message 'Four' is not shown in the known run: others are read then", ((20, 20),)),
     ]
+
+
+WELCOME = "Welcome to this place: go to the right, and look at what I have built there"
+
+
+@pytest.mark.parametrize("waits", [1, 4])
+def test_a_place_waits_until_the_welcome_was_read_also_while_the_level_waits(room: Maker, waits: int) -> None:
+    said(room, f"start: {WELCOME} | at 3,22: Wall ahead")
+    assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
+    room.press("f5")
+    play = room.shown(TryScreen).play
+    room.frames(waits * 40, ms=25)
+    assert play.phase is Phase.READY
+    room.app.controls.poll = lambda: 4  # type: ignore[method-assign]
+    seen = []
+    for _ in range(7 * TICKS_PER_SECOND):
+        room.frames(ms=25)
+        seen.append(play.messages.text)
+    assert play.phase is Phase.PLAY
+    assert seen.index("Wall ahead") == pytest.approx((6 - waits) * TICKS_PER_SECOND, abs=3)
+    assert set(seen[: seen.index("Wall ahead")]) == {WELCOME}
+
+
+def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_at_once_too(doors: Maker) -> None:
+    session = doors.editor.session
+    session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
+    for says, late in (
+        (f"start: {WELCOME} | at 5,22: Wall ahead", "'Wall ahead' is not shown in the known run: others are read then"),
+        (f"start: {WELCOME} | gold: Well", f"'{WELCOME}' is replaced after 0.6 s in the known run, too soon"),
+        (f"start: {WELCOME} | start: Two | trap: Late", ""),
+    ):
+        said(doors, says)
+        texts = [finding.text for finding in session.examine() if finding.code == "late-message"]
+        assert texts == [f"the message {late}"] * bool(late)
+        opened(doors)
+        assert drawn(doors.app).count(" in the known run") == len(texts), "beside the message, too"
+        doors.choose("Cancel")
 
 
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
