@@ -67,7 +67,7 @@ class MessageQueue:
     """The messages of a level in play, shown one at a time: the present one, and those that wait for it.
 
     - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
-    - ``helps``: the game gives advice too: to try again, to climb.
+    - ``helps``: the game gives advice too: to try again, to climb; ``teaches``: not beside the level's messages.
     - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
 
     A message of the start comes at each start until the exit is open, any other once. What just happened replaces
@@ -76,10 +76,17 @@ class MessageQueue:
     stays while the ninja is in its frame, unless another waits.
     """
 
-    def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
+    def __init__(
+        self,
+        messages: Sequence[LevelMessage],
+        tiles: TileMap | None = None,
+        *,
+        helps: bool = False,
+        teaches: bool = False,
+    ) -> None:
         self._messages, self._map = messages, tiles or TileMap()
         self.helps = helps
-        self._again = helps
+        self._again = self._advises = helps and not (teaches and messages)
         self._shown: set[LevelMessage] = set()
         self._read = Counter[str]()  # ticks for which the texts were shown
         self.deaths = self._slips = 0
@@ -178,7 +185,7 @@ class MessageQueue:
         if self._again and self._is_stuck(world):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
-        if self.helps and (wall := self._slipped(world)) and not self.is_unread:
+        if self._advises and (wall := self._slipped(world)) and not self.is_unread:
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
             self._say_now((self._climb, START_TICKS, None))

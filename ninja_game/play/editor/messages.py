@@ -96,6 +96,7 @@ _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read, also at the start.",
     f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(NUMBER_WORDS)} the number.",
     f"{_listed(TARGETS)} have an arrow while their message is shown.",
+    "In a level with messages the game gives no help of its own in play.",
 )
 
 DETAIL, TIME, _TEXT = 1, -2, -1

@@ -17,6 +17,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
@@ -819,6 +820,21 @@ def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_at_o
         opened(doors)
         assert drawn(doors.app).count(" in the known run") == len(texts), "beside the message, too"
         doors.choose("Cancel")
+
+
+@pytest.mark.parametrize("says, helps", [("", True), ("after 99 s: Go", False)])
+def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, says: str, helps: bool) -> None:
+    walls = Stamp({(column, row): 1 for row in range(10, 23) for column in (1, 5)}, ())
+    room.editor.session.tools.history.change(replace(with_stamp(room.draft, walls), says=says))
+    room.press("f5")
+    play, runs = room.shown(TryScreen).play, read_inputs([(1, ".*40 R*12 RJ*20 R*20 L*60 " * 2)]).keys
+    room.app.controls.poll = iter(runs).__next__  # type: ignore[method-assign]
+    play.begin()
+    heard = set()
+    for _ in runs:
+        play.run_ticks(1)
+        heard.add(play.messages.text.partition(",")[0])
+    assert heard == ({"", "Hold {right}"} if helps else {""})
 
 
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
