@@ -299,14 +299,14 @@ def test_what_is_wrong_keeps_the_focus_and_is_said(
     assert not room.draft.says
 
 
-def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_a_click(room: Maker) -> None:
+def test_a_place_begins_at_the_ninja_or_with_what_is_selected_and_is_shown_by_a_click(room: Maker) -> None:
     tools = room.editor.session.tools
     room.mouse(*room.at(24 * 7 + 5, 24 * 9 + 5), click=False)
     screen = opened(room)
     add(room, "here")
     room.choose("At the start...")
     room.choose("Near a place")
-    assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
+    assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "2,22")
     room.mouse(*in_picture(20, 4))
     assert screen.messages[0].detail == "20,4"
     assert "text '20,4'" in drawn(room.app)
