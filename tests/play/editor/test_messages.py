@@ -155,7 +155,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     add(room, "on")
     select(room, 1)
     room.type("out")
-    room.press("return")
+    room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == "start: run | switch: out | start: on"
     assert isinstance(room.top(), EditorScreen)
     room.chord("z", pygame.KMOD_LCTRL)
@@ -213,6 +213,13 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
 def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     screen = opened(room)
     add(room, *"abcdefgh")
+    x, y, *_ = screen._row_widgets[4][_TEXT].area
+    for notches, first in ((-1, 4), (1, 0), (2, 0), (-1, 4)):
+        room.wheel(notches, x + 9, y + 9)
+        assert screen._first == first
+        assert screen.focus in screen.widgets
+    room.wheel(1, *in_picture(9, 9))
+    assert screen._first == 4
     assert not room.button("Add").enabled
     assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
     assert "text 'Page 2 of 2'" in drawn(room.app)
@@ -573,7 +580,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
     start = boxes[-1]
-    assert screen._row_widgets[0][-1].hint == "Shift+Enter begins a new line: 3 at most", "no braces in it"
+    assert screen._row_widgets[0][-1].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", "no braces in it"
     field = screen._row_widgets[1][-1]
     room.mouse(*field.centre)
     assert isinstance(field, TextEntry)
@@ -904,12 +911,12 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     assert maker.shown(TryScreen).mood == Mood(1, 0), "and so has a test"
 
 
-def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
+def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
     screen = opened(room)
     add(room, "")
     for line in ("Run", "jump", "and see"):
         room.type(line)
-        room.chord("return", pygame.KMOD_LSHIFT)
+        room.press("return")
     assert room.top() is screen
     assert screen.messages[0].text == "Run\njump\nand see", "three lines are the most"
     field = screen._row_widgets[0][_TEXT]
@@ -921,7 +928,7 @@ def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(ro
     room.type("z")
     room.mouse(field.area[0] + 200, field.area[1] + 8)
     assert field.edited.cursor == 3, "a click behind a line leads to its end"
-    room.press("return")
+    room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == r"start: Run\njumpz\nand see"
     assert [message.text for message in opened(room).messages] == ["Run\njumpz\nand see"]
 
@@ -930,7 +937,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     screen = opened(room)
     add(room, "")
     room.type("Run")
-    room.chord("return", pygame.KMOD_LSHIFT)
+    room.press("return")
     drawn(room.app)
     field = screen._row_widgets[0][_TEXT]
     assert isinstance(field, TextArea)
@@ -938,7 +945,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     assert field._cursor_row == 1
     room.press("up")
     assert field.edited.cursor == 0
-    room.press("return")
+    room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == "start: Run"
 
 
