@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from math import hypot
@@ -22,6 +23,7 @@ from ninja_game.simulation import Simulation
 SHOWN_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
 _FADE_TICKS = 20  # ticks in which a message near a place fades at its end
+_GLANCE = TICKS_PER_SECOND  # ticks in which nobody reads a message
 _WAITS = {"at", "after"}  # moments that wait until what just happened was read
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
@@ -65,20 +67,28 @@ class MessageQueue:
     """The messages of a level in play: the shown one, and those that wait for it.
 
     - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
-    - ``helps``: the game gives advice too: to try again, to climb.
+    - ``helps``: the game gives advice too: to try again, to climb; ``teaches``: not beside the level's messages.
     - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
 
     A message of the start comes at each start until the exit is open, any other once. What just happened replaces
     what is shown; a place or a time waits until that was read, for its ``read_ticks``, and comes again if it was
-    replaced before. The text of a place without a time of its own stays while the ninja is in its frame, unless
-    another waits.
+    replaced before. What was read in an earlier try holds nothing back. The text of a place without a time of its own
+    stays while the ninja is in its frame, unless another waits.
     """
 
-    def __init__(self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, *, helps: bool = False) -> None:
+    def __init__(
+        self,
+        messages: Sequence[LevelMessage],
+        tiles: TileMap | None = None,
+        *,
+        helps: bool = False,
+        teaches: bool = False,
+    ) -> None:
         self._messages, self._map = messages, tiles or TileMap()
         self.helps = helps
-        self._again = helps
+        self._again = self._advises = helps and not (teaches and messages)
         self._shown: set[LevelMessage] = set()
+        self._read = Counter[str]()  # ticks for which the texts were shown
         self.deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
@@ -87,8 +97,7 @@ class MessageQueue:
 
     def at_start(self) -> None:
         """Called when the level waits at its start. What was still waiting has not been shown."""
-        waiting = {line[0] for line in self._next if not self._belongs_to_start(line[0])}
-        self._shown = {message for message in self._shown if message.text not in waiting}
+        self._shown.difference_update(message for _, _, message in self._next)
         due = [message for message in self._messages if message.when == "death" and message.number == self.deaths]
         starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
@@ -97,16 +106,13 @@ class MessageQueue:
 
     def _say(self, *texts: _Text) -> None:
         (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
-        self._unread = read_ticks(self.text)
 
     def _say_now(self, *texts: _Text) -> None:
         """Show these texts at once, then what waits. A place or a time that was not read is waited for again."""
-        waiting = [line for line in self._next if not self._belongs_to_start(line[0])]
-        unread = [message for _, _, message in waiting]
-        if self.is_unread:
-            unread.append(self.message)
-        self._shown -= {message for message in unread if message and message.when in _WAITS}
-        self._say(*texts, *(line for line in waiting if line[2] is None or line[2] in self._shown))
+        unread = [message for _, _, message in self._next] + [self.message] * self.is_unread
+        again = {message for message in unread if message and message.when in _WAITS}
+        self._shown -= again
+        self._say(*texts, *(line for line in self._next if line[2] not in again))
 
     @property
     def named(self) -> Sequence[str]:
@@ -128,7 +134,7 @@ class MessageQueue:
     @property
     def is_unread(self) -> bool:
         """Whether a text of a place or a time has to wait for the present one."""
-        return bool(self.text) and self._unread > 0 and not self.is_start
+        return self._read[self.text] < read_ticks(self.text) if self.text else False
 
     @property
     def opacity(self) -> float:
@@ -142,21 +148,27 @@ class MessageQueue:
 
     def drop_start(self) -> None:
         """The player has understood the goal, or is far from the start: do not say again what belongs to it."""
-        self._shown.update(message for message in self._messages if message.when == "start")
+        starts = [message for message in self._messages if message.when == "start"]
+        self._shown.update(starts)
+        self._next = [line for line in self._next if line[2] not in starts]
 
     def on_death(self) -> None:
         self.deaths += 1
         self.text = ""
 
+    def add_read(self, ticks: int) -> None:
+        """The present text was shown for so many ticks more, in play or while the level waits at its start."""
+        self._read[self.text] += ticks
+
     def on_tick(self, world: World) -> bool:
         """Called after a tick of play; whether the text has changed."""
         before = self.text
         self._left -= 1
-        self._unread -= 1
+        self.add_read(1)
         if self.message and self.place and not self.message.seconds:
             if _is_near(world, self.message):
                 self._left = self._left if self._next else max(self._left, _FADE_TICKS)
-            elif self._unread < 0:
+            elif not self.is_unread:
                 self._left = min(self._left, _FADE_TICKS)
         if self._left <= 0:
             self._say(*self._next)
@@ -173,7 +185,7 @@ class MessageQueue:
         if self._again and self._is_stuck(world):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
-        if self.helps and (wall := self._slipped(world)) and not self.is_unread:
+        if self._advises and (wall := self._slipped(world)) and not self.is_unread:
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
             self._say_now((self._climb, START_TICKS, None))
@@ -232,12 +244,14 @@ def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list
     numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
     together, alone = _heard(numbered, level, inputs)
     comings: list[Heard | None] = []
-    for text in texts:
+    for message, text in zip(messages, texts, strict=True):
         wanted, coming = alone.get(text), together.get(text)
         if wanted is None or coming is None:
             comings.append(wanted and Heard(wanted.tick, None, wanted.spot))
         else:
-            is_cut = coming.ticks < min(wanted.ticks, read_ticks(text))
+            # A level waits at its start: what is said there can be read before the run.
+            need = _GLANCE if message.when == "start" else read_ticks(text)
+            is_cut = coming.ticks < min(wanted.ticks, need)
             comings.append(Heard(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
     return comings
 
@@ -257,7 +271,7 @@ def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
     messages, past = parse_messages(says), set[tuple[object, ...]]()
     for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
         moment = message.when, message.number, message.cell
-        if coming and message.when not in {"start", "death"} and moment not in past and (why := late_text(coming)):
+        if coming and moment not in past and (why := late_text(coming)):
             cell = cell_of(*(message.place or coming.spot))
             yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
         past.add(moment)

@@ -191,11 +191,11 @@ class TextEntry(Widget):
 class TextArea(TextEntry):
     """A text in as many lines as have room, wrapped at words; up and down move by lines, and at the ends the focus.
 
-    Shift and Enter begin a new line.
+    Enter begins a new line.
     """
 
     def _press(self, event: pygame.Event) -> bool:
-        if chord(event) not in {"shift+return", "shift+kp_enter"}:
+        if chord(event).removeprefix("shift+") not in {"return", "kp_enter"}:
             return super()._press(event)
         self.edited.put("\n")
         return True

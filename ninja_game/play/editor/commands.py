@@ -454,14 +454,15 @@ class EditorCommands(DocumentCommands):
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 
     def messages(self, at: int | None = None) -> None:
-        """Edit the level's messages, beginning with the one at the selection or the pointer.
+        """Edit the level's messages, a new place begins at the selection or the ninja.
 
         ``at``: the number of the message to begin with.
         """
         tools = self.session.tools
         tools.finish()
         selected = [points(tools.draft.objects[number]).get(part) for number, part in tools.selection.parts]
-        place = cell_of(*next(filter(None, selected), tools.pointer))
+        ninjas = (at for spec in tools.draft.objects if spec.kind == NINJA for at in points(spec).values())
+        place = cell_of(*next(filter(None, (*selected, *ninjas)), tools.pointer))
         here = min(max(1, place[0]), COLUMNS), min(max(1, place[1]), ROWS)
 
         def put(says: str) -> None:

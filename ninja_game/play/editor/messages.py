@@ -97,6 +97,7 @@ _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
     f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(NUMBER_WORDS)} the number.",
     f"{_listed(TARGETS)} have an arrow while their message is shown.",
+    "In a level with messages the game gives no help of its own in play.",
 )
 
 DETAIL, TIME, _TEXT = 1, -2, -1
@@ -286,7 +287,7 @@ class MessagesScreen(MenuScreen):
         y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
         if len(self.messages) > SHOWN:
             text, others = f"Page {self._first // SHOWN + 1} of 2", (self._first + SHOWN) % MAX_MESSAGES
-            rows.append(Button((342, y, 98, 28), text, partial(self._select, others), hint="The other messages"))
+            rows.append(Button((342, y, 98, 28), text, partial(self._select, others), hint="The others: the wheel"))
         most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
         up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
         buttons: list[tuple[float, float, str, Action | None, str]] = [
@@ -296,7 +297,7 @@ class MessagesScreen(MenuScreen):
             (194, 56, "Down", down, "The selected message later: Ctrl+Down; with Shift the last"),
             (254, 76, "Remove", self._remove if some else None, "Take the selected message away"),
             (450, 98, "Test", self._try, "Play from just before the selected message; Esc comes back"),
-            (558, 98, "OK", self._accept, ""),
+            (558, 98, "OK", self._accept, "Ctrl+Enter"),
             (666, 98, "Cancel", self.close, ""),
         ]
         return [*rows, *(Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons)]
@@ -308,7 +309,8 @@ class MessagesScreen(MenuScreen):
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], _TOP + _ROW * (number % SHOWN)
-        area, new_line = (36, y + 31, _WIDE, 60), f"Shift+Enter begins a new line: {MAX_MESSAGE_LINES} at most"
+        area = 36, y + 31, _WIDE, 60
+        new_line = f"Enter begins a new line: {MAX_MESSAGE_LINES} at most; Ctrl+Enter is OK"
         text = TextArea(
             area, "What is said", message.text, lambda _: None, longest=MAX_LETTERS, most_lines=MAX_MESSAGE_LINES
         )
@@ -349,7 +351,15 @@ class MessagesScreen(MenuScreen):
         return self.messages[self._selected] if self._selected < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
-        """A click in the picture selects what lies there, or puts the selected message there; a drag frames it."""
+        """A click in the picture selects what lies there, or puts the selected message there; a drag frames it.
+
+        Beside the picture the wheel turns the page.
+        """
+        if event.type == pygame.MOUSEWHEEL:
+            number, beside = SHOWN if event.y < 0 else 0, self._level_point(pygame.mouse.get_pos()) is None
+            if beside and number < len(self.messages) and number != self._first:
+                self._select(number)
+            return
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
         at = self._level_point(event.pos) if pressed or drags else None
@@ -469,6 +479,9 @@ class MessagesScreen(MenuScreen):
         raw = event.raw
         keys = chord(raw).replace("shift+", "") if raw.type == pygame.KEYDOWN else ""
         by = {"ctrl+up": -1, "ctrl+down": 1}.get(keys, 0)
+        if keys in {"ctrl+return", "ctrl+kp_enter"}:
+            self._accept()
+            return True
         if by or keys == "ctrl+d":
             self._reorder(by) if by else self._copy()
             return True
@@ -479,7 +492,7 @@ class MessagesScreen(MenuScreen):
         return super().capture(event)
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Enter in a field means OK."""
+        """Enter in a field of one line means OK."""
         if action == "confirm" and isinstance(self.focus, TextEntry):
             self._accept()
         else:
@@ -565,13 +578,14 @@ class MessagesScreen(MenuScreen):
     def _heard(self, message: MessageRow) -> Heard | None:
         """When a message comes in the known run; None: never, without such a run, or not known yet."""
         answer, sound = self._known.result, self._sound()
-        if not answer or answer[0] != self._asked or message not in sound or message.when in {"start", "death"}:
+        if not answer or answer[0] != self._asked or message not in sound:
             return None
         return answer[1][sound.index(message)]
 
     def _wait_of(self, message: MessageRow) -> str:
         """How late a message comes in the known run because others are read first; '' if it is in time."""
-        text = late_text(moment) if (moment := self._heard(message)) else ""
+        moment = self._heard(message) if self._together(message)[0] is message else None
+        text = late_text(moment) if moment else ""
         return text[:1].upper() + text[1:]
 
     def _together(self, message: MessageRow) -> list[MessageRow]:
@@ -607,7 +621,7 @@ class MessagesScreen(MenuScreen):
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
         parsed, moment = self._parsed(message), self._heard(message)
         spot = None if parsed else self._eye(message)
-        spot = moment.spot if moment else spot
+        spot = moment.spot if moment and message.when != "start" else spot
         place = parsed and parsed.place
         layout = self._draft.level.tiles, self._things(stage), place, spot
         return placed_message(text, *layout, of_start=message.when == "start") if text else None

@@ -8,6 +8,7 @@ from enum import Enum
 from random import Random
 
 from ninja_game.formats.messages import arrow_targets
+from ninja_game.levels.episodes import GAME
 from ninja_game.play.app import App
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
@@ -104,7 +105,8 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = playthrough.level.gold
         self.show_tutorial = playthrough.show_tutorial
-        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=playthrough.shows_messages)
+        helps, teaches = playthrough.shows_messages, playthrough.entry.source != GAME
+        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=helps, teaches=teaches)
         for _ in range(playthrough.deaths):
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -234,6 +236,7 @@ class LevelPlay:
 
     def update(self, real_ms: int) -> None:
         if self.phase is Phase.READY:
+            self.messages.add_read(self.clock.ticks_due(real_ms, self.app.tick_ms))
             self._wait_for_move()
         elif self.phase is not Phase.PAUSED:
             if self.tools.rewinding:

@@ -17,6 +17,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
@@ -154,7 +155,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     add(room, "on")
     select(room, 1)
     room.type("out")
-    room.press("return")
+    room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == "start: run | switch: out | start: on"
     assert isinstance(room.top(), EditorScreen)
     room.chord("z", pygame.KMOD_LCTRL)
@@ -212,6 +213,13 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
 def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
     screen = opened(room)
     add(room, *"abcdefgh")
+    x, y, *_ = screen._row_widgets[4][_TEXT].area
+    for notches, first in ((-1, 4), (1, 0), (2, 0), (-1, 4)):
+        room.wheel(notches, x + 9, y + 9)
+        assert screen._first == first
+        assert screen.focus in screen.widgets
+    room.wheel(1, *in_picture(9, 9))
+    assert screen._first == 4
     assert not room.button("Add").enabled
     assert [widget in screen.widgets for widget in (screen._row_widgets[3][0], screen._row_widgets[4][0])] == [0, 1]
     assert "text 'Page 2 of 2'" in drawn(room.app)
@@ -298,14 +306,14 @@ def test_what_is_wrong_keeps_the_focus_and_is_said(
     assert not room.draft.says
 
 
-def test_a_place_begins_at_the_pointer_or_with_what_is_selected_and_is_shown_by_a_click(room: Maker) -> None:
+def test_a_place_begins_at_the_ninja_or_with_what_is_selected_and_is_shown_by_a_click(room: Maker) -> None:
     tools = room.editor.session.tools
     room.mouse(*room.at(24 * 7 + 5, 24 * 9 + 5), click=False)
     screen = opened(room)
     add(room, "here")
     room.choose("At the start...")
     room.choose("Near a place")
-    assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "7,9")
+    assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "2,22")
     room.mouse(*in_picture(20, 4))
     assert screen.messages[0].detail == "20,4"
     assert "text '20,4'" in drawn(room.app)
@@ -572,7 +580,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
     start = boxes[-1]
-    assert screen._row_widgets[0][-1].hint == "Shift+Enter begins a new line: 3 at most", "no braces in it"
+    assert screen._row_widgets[0][-1].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", "no braces in it"
     field = screen._row_widgets[1][-1]
     room.mouse(*field.centre)
     assert isinstance(field, TextEntry)
@@ -621,7 +629,7 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
     doors: Maker, monkeypatch: pytest.MonkeyPatch, says: str, x: int
 ) -> None:
     monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
-    opened(doors, f"start: Go | {says}")
+    opened(doors, f"death 1: Go | {says}")
     select(doors, 1)
     doors.choose("Test")
     trying = doors.shown(TryScreen)
@@ -784,6 +792,58 @@ def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Mak
     ]
 
 
+WELCOME = "Welcome to this place: go to the right, and look at what I have built there"
+
+
+@pytest.mark.parametrize("waits", [1, 4])
+def test_a_place_waits_until_the_welcome_was_read_also_while_the_level_waits(room: Maker, waits: int) -> None:
+    said(room, f"start: {WELCOME} | at 3,22: Wall ahead")
+    assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
+    room.press("f5")
+    play = room.shown(TryScreen).play
+    room.frames(waits * 40, ms=25)
+    assert not play.attempt.inputs, "it waits at its start"
+    room.app.controls.poll = lambda: 4  # type: ignore[method-assign]
+    seen = []
+    for _ in range(7 * TICKS_PER_SECOND):
+        room.frames(ms=25)
+        seen.append(play.messages.text)
+    assert play.attempt.inputs
+    assert seen.index("Wall ahead") == pytest.approx((6 - waits) * TICKS_PER_SECOND, abs=3)
+    assert set(seen[: seen.index("Wall ahead")]) == {WELCOME}
+
+
+def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_at_once_too(doors: Maker) -> None:
+    session = doors.editor.session
+    session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
+    for says, late in (
+        (f"start: {WELCOME} | at 5,22: Wall ahead", "'Wall ahead' is not shown in the known run: others are read then"),
+        (f"start: {WELCOME} | gold: Well", f"'{WELCOME}' is replaced after 0.6 s in the known run, too soon"),
+        (f"start: {WELCOME} | start: Two | trap: Late", ""),
+    ):
+        said(doors, says)
+        texts = [finding.text for finding in session.examine() if finding.code == "late-message"]
+        assert texts == [f"the message {late}"] * bool(late)
+        opened(doors)
+        assert drawn(doors.app).count(" in the known run") == len(texts), "beside the message, too"
+        doors.choose("Cancel")
+
+
+@pytest.mark.parametrize("says, helps", [("", True), ("after 99 s: Go", False)])
+def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, says: str, helps: bool) -> None:
+    walls = Stamp({(column, row): 1 for row in range(10, 23) for column in (1, 5)}, ())
+    room.editor.session.tools.history.change(replace(with_stamp(room.draft, walls), says=says))
+    room.press("f5")
+    play, runs = room.shown(TryScreen).play, read_inputs([(1, ".*40 R*12 RJ*20 R*20 L*60 " * 2)]).keys
+    room.app.controls.poll = iter(runs).__next__  # type: ignore[method-assign]
+    play.begin()
+    heard = set()
+    for _ in runs:
+        play.run_ticks(1)
+        heard.add(play.messages.text.partition(",")[0])
+    assert heard == ({"", "Hold {right}"} if helps else {""})
+
+
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
@@ -851,12 +911,12 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     assert maker.shown(TryScreen).mood == Mood(1, 0), "and so has a test"
 
 
-def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
+def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
     screen = opened(room)
     add(room, "")
     for line in ("Run", "jump", "and see"):
         room.type(line)
-        room.chord("return", pygame.KMOD_LSHIFT)
+        room.press("return")
     assert room.top() is screen
     assert screen.messages[0].text == "Run\njump\nand see", "three lines are the most"
     field = screen._row_widgets[0][_TEXT]
@@ -868,7 +928,7 @@ def test_shift_and_enter_begin_a_new_line_in_the_field_the_file_and_the_level(ro
     room.type("z")
     room.mouse(field.area[0] + 200, field.area[1] + 8)
     assert field.edited.cursor == 3, "a click behind a line leads to its end"
-    room.press("return")
+    room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == r"start: Run\njumpz\nand see"
     assert [message.text for message in opened(room).messages] == ["Run\njumpz\nand see"]
 
@@ -877,7 +937,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     screen = opened(room)
     add(room, "")
     room.type("Run")
-    room.chord("return", pygame.KMOD_LSHIFT)
+    room.press("return")
     drawn(room.app)
     field = screen._row_widgets[0][_TEXT]
     assert isinstance(field, TextArea)
@@ -885,7 +945,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     assert field._cursor_row == 1
     room.press("up")
     assert field.edited.cursor == 0
-    room.press("return")
+    room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == "start: Run"
 
 

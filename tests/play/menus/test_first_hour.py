@@ -680,11 +680,16 @@ def test_a_text_knows_its_place_until_another_comes() -> None:
     assert hud_place(told) is None
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
-    assert told.on_tick(simulation.world)
-    assert told.text == "Here"
+    heard = [(tick, told.text) for tick in range(1, 200) if told.on_tick(simulation.world)]
+    assert heard == [(read_ticks("Go"), "Here")], "what is said at the start is read first"
     assert hud_place(told) == (84.0, 540.0)
     told.at_start()
     assert hud_place(told) is None
+    assert told.on_tick(simulation.world) is False, "once shown, a place says nothing more"
+    told.say_again()
+    assert told.text == "Go"
+    assert told.on_tick(simulation.world)
+    assert told.text == "Here", "it was read in an earlier try"
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
