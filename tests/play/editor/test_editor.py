@@ -898,6 +898,9 @@ def test_undo_and_redo_say_what_changed_until_the_next_change(room: Maker) -> No
     for key, said in (("z", "Undone: 1 cell"), ("z", "Undone: author, comment"), ("y", "Redone: author, comment")):
         room.chord(key, pygame.KMOD_LCTRL)
         assert view.hint == said
+    room.editor.session.tools.history.change(room.draft.with_objects(room.draft.objects[::-1]))
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert view.hint == "Undone: order of objects"
     room.drag((400, 300))
     assert view.hint == ""
 
