@@ -323,7 +323,7 @@ class EditorCommands(DocumentCommands):
         self.session.tools.finish()
         level = self.session.draft.level
         if certifier.is_compiling and not certifier.is_stale(level):
-            self.app.notify("Still compiling: F7 stops the search that follows", here=True)
+            self.app.notify("Still preparing: F7 stops the search that follows", here=True)
             return
         if certifier.is_busy and not certifier.is_stale(level):
             certifier.stop()
