@@ -134,6 +134,7 @@ class EditorCommands(DocumentCommands):
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
+            "find": lambda: setattr(view, "listing", True),
             "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),
             "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
             "tests": self.switch_tests,

@@ -767,8 +767,12 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
 def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
     find = room.editor.sides[1].widgets[0]
+    room.press("f3", "x")
+    assert (tools.snap, view.listing) == ("half", True), "the list alone takes no keys"
+    tools.snap = "cell"
+    room.press("f3")
     for leave in ("return", "escape"):
-        room.press("f3")
+        room.chord("f", pygame.KMOD_LCTRL)
         room.mouse(500, 540, click=False)
         room.wheel(1, 100, 540)
         room.type("gol")
