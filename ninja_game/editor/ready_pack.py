@@ -79,6 +79,10 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
         notes.append(f"No par times: {error}")
     say("Looking for problems", 1.0)
     pack, link = Pack(path), ""
+    unsigned = [named for named in pack.levels.values() if not named.author]
+    if pack.index.is_signed and 0 < len(unsigned) < len(pack.levels):
+        names = ", ".join(shown_text(named.name) for named in unsigned)
+        notes.append(f"Without an author, so by the pack's, {shown_text(pack.index.author)}: {names}")
     problems = problems_of(pack, obstacles)
     try:
         link = pack.files.link()
