@@ -63,8 +63,6 @@ class Thumbnails:
         height = width * 25 / 33
         if picture is None:
             canvas.fill_rect(surface, palette.panel, x, y, width, height)
-            name, place = shown_text(entry.title), (x + 4, y + height / 2 - 11, width - 8, 22)
-            self.app.theme.paragraph(surface, [name], place, 9, 11, colour=palette.faint, align="centre")
         else:
             surface.blit(picture, canvas.point(x, y))
         canvas.frame_rect(surface, palette.panel_edge, x - 0.5, y - 0.5, width + 1, height + 1, 1)
