@@ -6,6 +6,7 @@ import os
 import secrets
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from itertools import pairwise
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -131,9 +132,11 @@ class History(Generic[Draft]):
             self.end()
 
     def amend(self, change: Callable[[Draft], Draft]) -> None:
-        """Change the draft, and in the same way all that undo and redo lead to."""
+        """Change the draft, and in the same way all that undo and redo lead to; steps that do nothing then go."""
         self.draft = change(self.draft)
-        self._done[:], self._undone[:] = map(change, self._done), map(change, self._undone)
+        for steps in (self._done, self._undone):
+            drafts = [*map(change, steps), self.draft]
+            steps[:] = [draft for draft, following in pairwise(drafts) if draft != following]
 
     def end(self) -> None:
         began, self._began = self._began, None

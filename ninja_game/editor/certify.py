@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-COMPILING = "Compiling the solver, the first time on a machine a minute or more"
+LOADING, COMPILING = "Loading the solver", "Compiling the solver, the first time on a machine a minute or more"
 
 SECONDS = 20.0
 """How long the solver looks for better runs."""
@@ -182,13 +182,14 @@ class Solver:
     """The solver in its own thread: one search after the other. Prepared kernels stay ready.
 
     ``left``: searches of closed levels, which continue. ``at_work``: the one begun last. ``stopped``: levels whose
-    search was cancelled before it had a run.
+    search was cancelled before it had a run. ``compiles``: whether the one at work waits for a compilation.
     """
 
     def __init__(self) -> None:
         self.left: list[Certification] = []
         self.stopped: set[Level] = set()
         self.at_work = Certification(end="Stopped")
+        self.compiles = False
         self.job: NewestJob[Certification, None] = NewestJob(self._work, every=True)
 
     def _work(self, certification: Certification) -> None:
@@ -196,9 +197,10 @@ class Solver:
             return
         self.at_work = certification
         try:
-            from ninja_game.search.solve import solve
+            from ninja_game.search.solve import is_compiled, solve
             from ninja_game.search.task import Task, obstacle
 
+            self.compiles = not is_compiled()
             task = Task(certification.level, seconds=certification.seconds, others=certification.known)
             report = partial(setattr, certification, "progress")
             result = solve(task, report=report, on_better=certification.take, stop=certification.stopping)
@@ -236,7 +238,8 @@ class Certifier:
         if certification.end or certification.level is None:
             return certification.end
         if certification.progress is None:
-            why = COMPILING if self.is_compiling else "Another level's search comes first"
+            why = COMPILING if self.solver.compiles else LOADING
+            why = why if self.is_compiling else "Another level's search comes first"
             waited = self.waited if self.is_compiling else f"{self.waited} in the queue"
             return f"{why}: {waited}. Go on editing, or save and leave"
         ticks = certification.progress.ticks

@@ -76,6 +76,8 @@ def change_text(before: Draft, after: Draft) -> str:
             verb = "moved" if [points(spec) for spec in gone] != [points(spec) for spec in come] else "changed"
         kinds = {object_type_name(spec) for spec in gone or come}
         parts.append(f"{verb} {counted(len(gone or come), kinds.pop() if len(kinds) == 1 else 'object')}")
+    elif before.objects != after.objects:
+        parts.append("order of objects")
     texts = {"teaches": "what it teaches", "says": "messages"}
     about = [key for key in ("name", "author", "comment", *texts) if getattr(before, key) != getattr(after, key)]
     return "; ".join([*parts, *([", ".join(texts.get(key, key) for key in about)] if about else [])])

@@ -8,7 +8,7 @@ from pathlib import Path
 from time import monotonic
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.editor.certify import COMPILING
+from ninja_game.editor.certify import COMPILING, LOADING
 from ninja_game.errors import LinkError, NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.tree import Tree
@@ -79,6 +79,10 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
         notes.append(f"No par times: {error}")
     say("Looking for problems", 1.0)
     pack, link = Pack(path), ""
+    unsigned = [named for named in pack.levels.values() if not named.author]
+    if pack.index.is_signed and 0 < len(unsigned) < len(pack.levels):
+        names = ", ".join(shown_text(named.name) for named in unsigned)
+        notes.append(f"Without an author, so by the pack's, {shown_text(pack.index.author)}: {names}")
     problems = problems_of(pack, obstacles)
     try:
         link = pack.files.link()
@@ -127,7 +131,7 @@ def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
 def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
     """Certify the levels with missing runs that are not accepted as missing."""
     from ninja_game.search.certify import CertifyOptions, certify_all
-    from ninja_game.search.solve import compile_solver
+    from ninja_game.search.solve import compile_solver, is_compiled
     from ninja_game.search.task import Progress, obstacle
 
     accepted = {_missing(pack, entry.file, entry.code) for entry in pack.index.accepted}
@@ -165,7 +169,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         say(f"Certifying level {done + 1} of {len(levels)}, {names[done]}: {spent:.0f} s so far, {about}", share)
 
     if levels:
-        say(f"{COMPILING}. You can go on with something else meanwhile", None)
+        say(f"{LOADING if is_compiled() else COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
         say("Starting the search", None)
     all_found = certify_all(list(levels.values()), files, options, jobs=jobs, report=report)

@@ -193,10 +193,8 @@ class EditorTools:
 
     def _begin_to_draw(self, *, erase: bool) -> None:
         if self.effective_tool == "fill" and not erase:
-            cells = stamps.filled(self.draft, self.cell)
-            middles = [middle_of(cell) for cell in cells if self.draws_objects]
-            objects = tuple(self.placed(*middle, "cell") for middle in middles)
-            self._change(stamps.Stamp({} if self.draws_objects else dict.fromkeys(cells, self.tile), objects))
+            tiles = {} if self.draws_objects else dict.fromkeys(stamps.filled(self.draft, self.cell), self.tile)
+            self._change(stamps.Stamp(tiles, self.next_objects if self.draws_objects else ()))
             return
         if erase:
             self._gesture = Gesture.ERASE
@@ -300,6 +298,13 @@ class EditorTools:
             after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
             self._previewed = key, {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
         return self._previewed[1]
+
+    @property
+    def next_objects(self) -> tuple[ObjectSpec, ...]:
+        """The objects that a press places, or a fill, without their images of a symmetry."""
+        if self.effective_tool != "fill":
+            return (self.placed(*self.pointer),)
+        return tuple(self.placed(*middle_of(cell), "cell") for cell in stamps.filled(self.draft, self.cell))
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         if not self.draws_objects:

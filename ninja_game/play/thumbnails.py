@@ -62,9 +62,7 @@ class Thumbnails:
         picture = self.get(entry, width)
         height = width * 25 / 33
         if picture is None:
-            room, edge = self.app.palette_in(entry.mood), width / 33
-            canvas.fill_rect(surface, room.tile, x, y, width, height)
-            canvas.fill_rect(surface, room.background, x + edge, y + edge, width - 2 * edge, height - 2 * edge)
+            canvas.fill_rect(surface, palette.panel, x, y, width, height)
         else:
             surface.blit(picture, canvas.point(x, y))
         canvas.frame_rect(surface, palette.panel_edge, x - 0.5, y - 0.5, width + 1, height + 1, 1)

@@ -13,13 +13,15 @@ from functools import cache, cached_property
 from math import inf
 from threading import Event, Lock
 
+from ninja_game.backend.kernel_cache import are_cached
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay
-from ninja_game.search.best_first import MORE
+from ninja_game.search.best_first import MORE, expand
 from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers
 from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.legs import piece_numbers
+from ninja_game.search.local_search import local_search
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import LEG_NODES, Route
 from ninja_game.search.searching import Search
@@ -209,6 +211,11 @@ SMALL_LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 
 
 _COMPILING = Lock()
+
+
+def is_compiled() -> bool:
+    """Whether this machine has machine code of the solver, so that it only has to be loaded."""
+    return bool(_compile_once.cache_info().currsize) or are_cached((expand, local_search), checked=False)
 
 
 def compile_solver() -> None:

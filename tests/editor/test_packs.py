@@ -213,6 +213,15 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     assert ready.zipped == Pack(pack).files.zipped()
 
 
+def test_levels_that_take_the_packs_author_are_named(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ready_pack, "compiled_available", lambda: False)
+    author = Pack(pack).index.author
+    packs.new_level(pack, "Brick", "")
+    packs.new_level(pack, "Mortar", "me")
+    notes = prepare_pack(pack, seconds=1.0, jobs=1, say=lambda *_: None).notes
+    assert f"Without an author, so by the pack's, {author}: Brick" in notes
+
+
 def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two levels with two searches each, of 20 s as planned, of which the first takes half as long again."""
     first, second = "00-0-first-steps", "00-1-mind-the-gap"
@@ -347,6 +356,7 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
         return [{} for _ in levels]
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
+    monkeypatch.setattr("ninja_game.search.solve.is_compiled", lambda: False)
     said: list[str] = []
     prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert said[0].startswith("Compiling the solver, the first time on a machine a minute or more. You can go on")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import gc
+from functools import cache
 from itertools import islice
+from pathlib import Path
 
 import pytest
 
@@ -18,6 +20,7 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+from ninja_game.search import solve as solve_module
 from ninja_game.search.certificate import (
     UnverifiedRunError,
     named_replay,
@@ -218,3 +221,16 @@ def test_smoothing_leaves_out_keys_that_do_nothing() -> None:
     smooth = verified_run(WALK, smooth_run(WALK, run.inputs))
     assert smooth.end_tick <= run.end_tick
     assert rows_of(smooth.inputs) == [(2, smooth.end_tick + 1)]
+
+
+def test_it_is_known_whether_the_solver_is_compiled_on_this_machine(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solve_module.compile_solver()
+    monkeypatch.setattr(solve_module, "_compile_once", cache(lambda: None))
+    assert solve_module.is_compiled(), "by another process"
+    monkeypatch.setattr("ninja_game.backend.kernel_cache.code_folder", lambda: tmp_path)
+    monkeypatch.setattr("ninja_game.backend.kernel_cache.SHIPPED", tmp_path)
+    assert not solve_module.is_compiled()
+    solve_module._compile_once()
+    assert solve_module.is_compiled(), "in this process, though nothing can be kept"

@@ -143,6 +143,7 @@ class EditorCommands(DocumentCommands):
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
             "list": lambda: setattr(view, "listing", not view.listing),
+            "find": lambda: setattr(view, "listing", True),
             "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),
             "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
             "tests": self.switch_tests,
@@ -154,13 +155,18 @@ class EditorCommands(DocumentCommands):
 
     def undo(self) -> None:
         before, tools = self.session.draft, self.session.tools
-        if tools.undo() and (text := change_text(tools.draft, before)):
-            self.view.hint = f"Undone: {text}"
+        self._tell_step("Undone" if tools.undo() else "Nothing to undo", tools.draft, before)
 
     def redo(self) -> None:
         before, tools = self.session.draft, self.session.tools
-        if tools.redo() and (text := change_text(before, tools.draft)):
-            self.view.hint = f"Redone: {text}"
+        self._tell_step("Redone" if tools.redo() else "Nothing to redo", before, tools.draft)
+
+    def _tell_step(self, done: str, before: Draft, after: Draft) -> None:
+        """Say which change from one draft to the other was undone or redone, and whether the file has the result."""
+        saved = self.session.source.path and self.session.is_saved
+        text = change_text(before, after)
+        if text or done.startswith("Nothing"):
+            self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
 
     def stamps(self) -> None:
         """Choose a stamp to paste, or keep what is selected, or was copied, as one."""
@@ -318,7 +324,7 @@ class EditorCommands(DocumentCommands):
         self.session.tools.finish()
         level = self.session.draft.level
         if certifier.is_compiling and not certifier.is_stale(level):
-            self.app.notify("Still compiling: F7 stops the search that follows", here=True)
+            self.app.notify("Still preparing: F7 stops the search that follows", here=True)
             return
         if certifier.is_busy and not certifier.is_stale(level):
             certifier.stop()

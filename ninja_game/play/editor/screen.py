@@ -59,8 +59,8 @@ class EditorScreen(WorkspaceScreen):
 
     def run(self, name: str) -> None:
         self.commands.run(name)
-        self.redraw = self.redraw or name == "list"
-        if name == "list" and self.view.listing:
+        self.redraw = self.redraw or name in ("list", "find")
+        if name == "find":
             self.sides[1].wants = self.sides[1].widgets[0]
 
     def hint(self, text: str) -> None:

@@ -176,7 +176,8 @@ class Overlay:
         x, y = points(spec).get(BODY_PART, tools.pointer)
         there = nearest_part(tools.draft, x, y, NEAR_SWITCH_PX)
         if there is None or there[1] != SWITCH_PART:
-            images = [spec] if spec.kind in (NINJA, EXIT) else [carried(spec, motion) for motion in motions]
+            motions = motions[: 1 if spec.kind in (NINJA, EXIT) else None]
+            images = [carried(placed, motion) for placed in tools.next_objects for motion in motions]
             for sprites in self.sheet.pictures.sprites_of(images).values():
                 sprites.draw(self.target, alpha=GHOST)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):

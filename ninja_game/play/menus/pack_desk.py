@@ -27,6 +27,7 @@ from ninja_game.ui.widgets import Widget
 Edit = Callable[[Entry, Finding | None], object]
 
 _BACK = "Undo, or Ctrl+Z, takes it back"
+_COLOURS = "colours follow the place"
 
 
 class PackDesk(ThumbnailScreen):
@@ -269,12 +270,12 @@ class PackDesk(ThumbnailScreen):
             before = (Path(entry.named.file).name for entry in behind if entry not in levels)
             if packs.place(target, names, number, next(before, "")) and not came:
                 where = "out of its episode" if number is None else f"to episode {number + 1}"
-                self.app.notify(f"Moved {called(levels)} {where}. {_BACK}")
+                self.app.notify(f"Moved {called(levels)} {where}; {_COLOURS}. {_BACK}")
 
     def _move_episode(self, number: int, to: int) -> None:
         packs.move_episode(self.path, number, to)
         if number != to:
-            self.app.notify(f"Moved episode {number + 1} to the place of {to + 1}. {_BACK}")
+            self.app.notify(f"Moved episode {number + 1} to the place of {to + 1}; {_COLOURS}. {_BACK}")
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_RIGHT and not self.moving:

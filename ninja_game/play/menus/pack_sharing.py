@@ -223,11 +223,13 @@ def show_card(desk: PackDesk, pack: EpisodeSet) -> None:
 
 def ask_about(desk: PackDesk, ready: ReadyPack) -> None:
     rows: list[MenuRow] = [
-        ("Show the problems", lambda: show_problems(desk), "Make ready asks again"),
+        ("Show the problems", lambda: show_problems(desk), "Make ready asks about what is left"),
         ("Zip and link all the same", partial(desk.packer.publish, ready), "")
         if ready.zipped
         else ("Make ready all the same", partial(desk.packer.start, desk.path, known=ready.problems), "With these"),
         CANCEL,
     ]
-    title = f"{shown_text(ready.pack.name)}: {counted(len(ready.problems), 'open problem')}"
+    news, count = len(desk.packer.news(ready.problems)), len(ready.problems)
+    problems = counted(count, "open problem") if news == count else f"{counted(news, 'new problem')}, {count} open"
+    title = f"{shown_text(ready.pack.name)}: {problems}"
     desk.app.push(Menu(desk.app, title, rows, unasked=True))

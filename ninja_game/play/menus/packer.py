@@ -45,7 +45,8 @@ class Packer(Aside):
         self.path = Path()  #: the pack that is or was made ready
         self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
-        self._known: Sequence[PackFinding] | None = None  #: problems that the player accepts; None: ask about all first
+        self._known: dict[Path, set[tuple[str, str]]] = {}  #: by pack the problems not asked about: file and code
+        self._asks_first = True  #: whether what is wrong is asked about before the work
         self._watching: tuple[Screen, Path | None] | None = None  #: the desk, and the pack that it shows
         self.obstacles: Obstacles = {}
         self.steps = Steps(app.player.folder)  #: changes made at the desk
@@ -74,12 +75,23 @@ class Packer(Aside):
         return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
-        """Make a pack ready. ``known``: problems that the player accepts; None: all problems are asked about first."""
-        self._known, self.path, self.is_busy, self._stopped = known, path, True, False
+        """Make a pack ready. ``known``: problems with which the player goes on; None: new ones are asked about before.
+
+        They are not asked about again.
+        """
+        self._asks_first, self.path, self.is_busy, self._stopped = known is None, path, True, False
+        self._know(known or ())
         self.saved = self._open_problems = None
         self._seconds = seconds
         self._say("Beginning", 0.0)
         self._job.ask(path)
+
+    def _know(self, problems: Sequence[PackFinding]) -> None:
+        self._known.setdefault(self.path, set()).update((odd.file, odd.code) for odd in problems)
+
+    def news(self, problems: Sequence[PackFinding]) -> list[PackFinding]:
+        """Those of the problems with which the player has not gone on yet."""
+        return [odd for odd in problems if (odd.file, odd.code) not in self._known[self.path]]
 
     def search_longer(self, path: Path, missing: tuple[Level, str]) -> None:
         """Make the pack ready with a longer search of a run that was not found."""
@@ -101,9 +113,10 @@ class Packer(Aside):
         self._step = text, share, monotonic()
 
     def _make_ready(self, path: Path) -> ReadyPack:
-        if self._known is None:
+        if self._asks_first:
             self._say("Looking for problems", None)
-            if (found := Checked.of(Pack(path), self.obstacles)).problems:
+            found = Checked.of(Pack(path), self.obstacles)
+            if self.news(found.problems):
                 return ReadyPack(found.pack, found.findings, b"", "", [])
         jobs = max(1, cores() - 1)
         return prepare_pack(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
@@ -120,7 +133,7 @@ class Packer(Aside):
             if self.app.stack:
                 self.app.top.look_again()
             ready = None if self.text else self._job.result
-            if ready and any(problem not in (self._known or ()) for problem in ready.problems):
+            if ready and self.news(ready.problems):
                 self._open_problems = ready
                 self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"
                 if not self.waited_for:
@@ -136,6 +149,7 @@ class Packer(Aside):
 
     def publish(self, ready: ReadyPack) -> None:
         """Write the zip; copy the link if the player looks at the pack, and notify them."""
+        self._know(ready.problems)
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         title = f"{name} {ready.pack.index.version}".strip()
         write, over = (lambda path: write_atomically(path, ready.zipped)), self._earlier(title, ready.pack)

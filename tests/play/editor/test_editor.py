@@ -41,7 +41,7 @@ from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, obstacle
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import DRONE, EXIT, NINJA
+from ninja_game.sim.kinds import DRONE, EXIT, GOLD, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import Simulation
 from ninja_game.ui.input.keys import SCANCODES
@@ -764,11 +764,31 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
     assert (bool(tools.ghost), tools.selection, tools.tool) == (False, before, "select")
 
 
+def test_a_fill_with_objects_is_seen_before_the_click(room: Maker) -> None:
+    room.editor.session.tools.tool = "rectangle"
+    room.drag((200, 200), (300, 300))
+    room.press("0")
+    room.drag((225, 225), (275, 275))
+    room.press("f", "shift+g")
+    counts = []
+    for place in ((250, 250), (210, 250)):
+        room.mouse(*room.at(*place), click=False)
+        room.frames()
+        counts.append(drawn(room.app).count("sprite gold"))
+    room.drag((250, 250))
+    assert counts == [9, 16], "in the wall, too"
+    assert len([spec for spec in room.draft.objects if spec.kind == GOLD]) == 9
+
+
 def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
     find = room.editor.sides[1].widgets[0]
+    room.press("f3", "x")
+    assert (tools.snap, view.listing) == ("half", True), "the list alone takes no keys"
+    tools.snap = "cell"
+    room.press("f3")
     for leave in ("return", "escape"):
-        room.press("f3")
+        room.chord("f", pygame.KMOD_LCTRL)
         room.mouse(500, 540, click=False)
         room.wheel(1, 100, 540)
         room.type("gol")
@@ -899,6 +919,9 @@ def test_undo_and_redo_say_what_changed_until_the_next_change(room: Maker) -> No
     for key, said in (("z", "Undone: 1 cell"), ("z", "Undone: author, comment"), ("y", "Redone: author, comment")):
         room.chord(key, pygame.KMOD_LCTRL)
         assert view.hint == said
+    room.editor.session.tools.history.change(room.draft.with_objects(room.draft.objects[::-1]))
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert view.hint == "Undone: order of objects"
     room.drag((400, 300))
     assert view.hint == ""
 

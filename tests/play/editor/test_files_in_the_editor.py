@@ -29,6 +29,7 @@ from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from ninja_game.sim.grid import is_inside
+from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.own_pack import PACK
 from tools.draw.screens import written
@@ -87,6 +88,30 @@ def test_a_level_that_is_opened_again_can_be_undone_as_before(room: Maker, tmp_p
     room.open("Editor")
     room.editor.commands.open_file(path)
     assert not room.editor.session.tools.history.can_undo
+
+
+def test_a_level_that_is_opened_again_says_what_is_undone_and_what_is_as_saved(room: Maker) -> None:
+    room.drag((300, 300))
+    room.press("f2")
+    room.fill("Pit", "OK")
+    room.press("f2")
+    room.shown(FormPanel).texts[1] = "ida"
+    room.choose("OK")
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = room.editor.session.source.path
+    assert path
+    room.choose_in_menu("Leave the editor")
+    room.open("Editor")
+    room.editor.commands.open_file(path)
+    for key, says, state in (
+        ("z", "Undone: author", "not saved"), ("z", "Undone: 1 cell", "not saved"),
+        ("z", "Nothing to undo", "not saved"), ("y", "Redone: 1 cell", "not saved"),
+        ("y", "Redone: author. Now as saved", "saved"), ("y", "Nothing to redo", "saved"),
+    ):  # fmt: skip
+        room.chord(key, pygame.KMOD_LCTRL)
+        picture = drawn(room.app)
+        assert f"text '{says}'" in picture, "a name that is in the file is no step of its own"
+        assert f"text 'pit.txt: {state}'" in picture
 
 
 @pytest.mark.parametrize("zipped", [False, True])

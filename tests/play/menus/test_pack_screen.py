@@ -249,21 +249,42 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert (driver.top(), screen.marked) == (screen, set())
 
 
+def test_a_level_is_a_calm_frame_above_its_name_until_its_picture_is_made(
+    driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    frame = r"fill panel \S+ 81 x 61\.4 radius 0"
+    with monkeypatch.context() as waiting:
+        waiting.setattr("ninja_game.play.thumbnails.Thumbnails.work", lambda _: False)
+        opened(driver)
+        seen = drawn(driver.app)
+        assert len(re.findall(frame, seen)) == 8
+        assert "text 'First Steps'" in seen
+    driver.wait(lambda: not re.search(frame, drawn(driver.app)))
+
+
 def test_levels_and_episodes_are_dragged(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     shelves = screen.shelves
     driver.carry(shelves.row_area(2), half(screen, 8))
     assert layout(path) == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
-    assert driver.app.notice == "Moved Mind the Gap to episode 2. Undo, or Ctrl+Z, takes it back"
+    assert (
+        driver.app.notice == "Moved Mind the Gap to episode 2; colours follow the place. Undo, or Ctrl+Z, takes it back"
+    )
     driver.carry(shelves.row_area(1), screen.tray.area)
     assert layout(path)[0] == ["00-2", "00-3", "00-4"]
     assert titles(screen.tray) == ["First Steps"]
-    assert driver.app.notice == "Moved First Steps out of its episode. Undo, or Ctrl+Z, takes it back"
+    assert (
+        driver.app.notice
+        == "Moved First Steps out of its episode; colours follow the place. Undo, or Ctrl+Z, takes it back"
+    )
     driver.carry(screen.tray.row_area(0), shelves.row_area(13))
     assert layout(path)[2] == ["00-0"], "a row below the others is a new episode"
     assert [each.name for each in Pack(path).index.episodes][2] == "Episode 3"
     driver.carry(shelves.row_area(12), shelves.row_area(0))
     assert layout(path) == {0: ["00-0"], 1: ["00-2", "00-3", "00-4"], 2: ["01-0", "00-1", "01-1", "01-2"]}
-    assert driver.app.notice == "Moved episode 3 to the place of 1. Undo, or Ctrl+Z, takes it back"
+    assert (
+        driver.app.notice
+        == "Moved episode 3 to the place of 1; colours follow the place. Undo, or Ctrl+Z, takes it back"
+    )
     driver.carry(shelves.row_area(1), (300, 530, 2, 2))
     assert layout(path)[0] == ["00-0"], "let go over nothing it stays"
     assert driver.top() is screen
@@ -679,17 +700,20 @@ def test_what_is_wrong_is_asked_about_before_the_work_and_once(
         "Brick: there is no ninja: the level cannot be played"
     ]
     driver.press("escape")
-    for zips in (["laundry-1.1.zip"], ["laundry-1.1.zip", "laundry-1.1-2.zip"]):
+    for number, saved in enumerate(("laundry-1.1.zip", "laundry-1.1-2.zip", "laundry-1.1-3.zip")):
         driver.choose("Make ready")
-        asked("1 open problem")
-        driver.choose("Make ready all the same")
-        driver.wait(lambda: not screen.packer.is_busy)
-        if len(zips) == 2:
-            asked("2 open problems")
+        if number == 0:
+            asked("1 open problem")
+            driver.choose("Make ready all the same")
+        if number == 1:
+            asked("1 new problem, 2 open")
             driver.choose("Zip and link all the same")
+        driver.wait(lambda: not screen.packer.is_busy)
+        assert driver.top() is screen
         assert screen.packer.saved
-        assert screen.packer.saved.name == zips[-1], "what is known is not asked about again, what is new is"
-    assert len(begun) == 2
+        assert screen.packer.saved.name == saved, "what is known is not asked about again, what is new is"
+        packs.place(path, ["00-0-first-steps.txt"], 1)
+    assert len(begun) == 3
 
 
 def test_what_was_made_ready_asks_only_at_its_own_desk(
@@ -1117,7 +1141,9 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     assert layout(path)[0][0] == "00-0"
     driver.app.notify("")
     driver.carry(screen.shelves.row_area(1), half(screen, 4))
-    assert driver.app.notice == "Moved First Steps to episode 1. Undo, or Ctrl+Z, takes it back"
+    assert (
+        driver.app.notice == "Moved First Steps to episode 1; colours follow the place. Undo, or Ctrl+Z, takes it back"
+    )
 
 
 def test_the_disk_is_read_again_only_when_it_changed(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
