@@ -91,6 +91,7 @@ def test_unlocks_are_announced_once() -> None:
     assert new_unlocks(store, 1, 10) == []
     assert "Overclock unlocked: see Settings" in new_unlocks(store, 6, 10)
     assert "All ninja colours are yours: see Settings" in new_unlocks(store, 10, 10)
+    assert "All ninja colours are yours: see Settings" in new_unlocks(Store(None), 1, 1), "the only column"
 
 
 def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None:
