@@ -197,10 +197,10 @@ class Solver:
             return
         self.at_work = certification
         try:
-            from ninja_game.search.solve import is_compiled, solve
+            from ninja_game.search.solve import is_solver_compiled, solve
             from ninja_game.search.task import Task, obstacle
 
-            self.compiles = not is_compiled()
+            self.compiles = not is_solver_compiled()
             task = Task(certification.level, seconds=certification.seconds, others=certification.known)
             report = partial(setattr, certification, "progress")
             result = solve(task, report=report, on_better=certification.take, stop=certification.stopping)

@@ -131,7 +131,7 @@ def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
 def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
     """Certify the levels with missing runs that are not accepted as missing."""
     from ninja_game.search.certify import CertifyOptions, certify_all
-    from ninja_game.search.solve import compile_solver, is_compiled
+    from ninja_game.search.solve import compile_solver, is_solver_compiled
     from ninja_game.search.task import Progress, obstacle
 
     accepted = {_missing(pack, entry.file, entry.code) for entry in pack.index.accepted}
@@ -169,7 +169,7 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         say(f"Certifying level {done + 1} of {len(levels)}, {names[done]}: {spent:.0f} s so far, {about}", share)
 
     if levels:
-        say(f"{LOADING if is_compiled() else COMPILING}. You can go on with something else meanwhile", None)
+        say(f"{LOADING if is_solver_compiled() else COMPILING}. You can go on with something else meanwhile", None)
         compile_solver()
         say("Starting the search", None)
     all_found = certify_all(list(levels.values()), files, options, jobs=jobs, report=report)

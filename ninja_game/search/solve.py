@@ -213,7 +213,7 @@ SMALL_LEVEL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 _COMPILING = Lock()
 
 
-def is_compiled() -> bool:
+def is_solver_compiled() -> bool:
     """Whether this machine has machine code of the solver, so that it only has to be loaded."""
     return bool(_compile_once.cache_info().currsize) or are_cached((expand, local_search), checked=False)
 

@@ -356,7 +356,7 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
         return [{} for _ in levels]
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
-    monkeypatch.setattr("ninja_game.search.solve.is_compiled", lambda: False)
+    monkeypatch.setattr("ninja_game.search.solve.is_solver_compiled", lambda: False)
     said: list[str] = []
     prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
     assert said[0].startswith("Compiling the solver, the first time on a machine a minute or more. You can go on")
