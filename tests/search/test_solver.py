@@ -228,9 +228,9 @@ def test_it_is_known_whether_the_solver_is_compiled_on_this_machine(
 ) -> None:
     solve_module.compile_solver()
     monkeypatch.setattr(solve_module, "_compile_once", cache(lambda: None))
-    assert solve_module.is_compiled(), "by another process"
+    assert solve_module.is_solver_compiled(), "by another process"
     monkeypatch.setattr("ninja_game.backend.kernel_cache.code_folder", lambda: tmp_path)
     monkeypatch.setattr("ninja_game.backend.kernel_cache.SHIPPED", tmp_path)
-    assert not solve_module.is_compiled()
+    assert not solve_module.is_solver_compiled()
     solve_module._compile_once()
-    assert solve_module.is_compiled(), "in this process, though nothing can be kept"
+    assert solve_module.is_solver_compiled(), "in this process, though nothing can be kept"
