@@ -80,9 +80,13 @@ class Page {
     addEventListener("pagehide", () => this.saveAll());
     addEventListener("blur", () => this.touch.release());
     addEventListener("hashchange", () => this.openLink().catch(failed));
-    addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.saving) && event.preventDefault());
+    addEventListener("beforeunload", (event) => this.leavingLoses && event.preventDefault());
     new ResizeObserver(() => this.host.resize()).observe(canvas);
     addEventListener("pointermove", () => this.stirred(), { passive: true });
+  }
+
+  get leavingLoses() {
+    return this.state === "play" || this.folder.writing || (!this.stopped && this.folder.unsaved);
   }
 
   // The pointer and the page's button show themselves while the mouse moves.
@@ -104,7 +108,7 @@ class Page {
   saveAll() {
     if (this.stopped) return;
     this.services.flush();
-    this.folder.saveChanges(() => {});
+    this.folder.saveChanges(() => {}, { now: true });
   }
 
   turn(now) {
@@ -151,7 +155,8 @@ class Page {
   async end() {
     this.stop();
     await this.folder.saving;
-    showStop("The game has ended", "You may close this tab.", reloading("Play again"));
+    const advice = this.folder.unsaved ? "What you did last could not be saved in this browser." : "You may close this tab.";
+    showStop("The game has ended", advice, reloading("Play again"));
   }
 
   stop() {
