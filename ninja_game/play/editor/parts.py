@@ -438,7 +438,7 @@ class Findings(EditorPart):
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:
-        return (id(self._shown),)
+        return (tuple(self._lines),)
 
     def update(self, real_ms: int) -> None:
         if self._shown is not self.session.findings:

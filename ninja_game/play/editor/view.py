@@ -388,7 +388,7 @@ class EditorView(Pane):
             tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
             tools.marquee, tools.placing_switch, tools.draft, self.message,
-            self.session.reach and id(self.session.reach),
+            self.session.reach and self.session.reach[1:],
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:

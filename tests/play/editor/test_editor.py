@@ -456,6 +456,24 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     assert why not in session.findings, "of another level"
 
 
+def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlier_one(room: Maker) -> None:
+    part = next(part for part in room.editor.parts if isinstance(part, Findings))
+    lists = [[Finding("too-many-objects", "one")]]
+    address = id(lists[0])
+
+    def key() -> object:
+        with patch.object(type(part.session), "findings", lists[-1]):
+            part.update(0)
+        return part.render_key()
+
+    before = key()
+    lists[0] = []
+    assert key() != before
+    while len(lists) < 1000 and id(lists[-1]) != address:
+        lists.append([Finding("many-objects", "another")])
+    assert key() != before
+
+
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
     far = ObjectSpec(NINJA, (9000.0, 300.0))
     room.editor.session.tools.load(History(with_stamp(ROOM, Stamp({}, (far,)))))
