@@ -17,8 +17,9 @@ from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Keys
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.schema.declare import f8, fast, i8, kernel, struct
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
@@ -86,18 +87,27 @@ def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
     return max(min(start, start + by), 0)
 
 
+_SIDES = KEY_LEFT + KEY_RIGHT
+
+# Kinds of edits: a number below ``_EDITS``; a name with UP_TO stands for two numbers, its own and the one before.
+_EDITS = 12
+_CUT, _STRETCH, _TRADE = 0, 1, 2
+_UP_TO_SHIFT_SIDES, _UP_TO_SHIFT_JUMP, _UP_TO_SHIFT_PULSE = 4, 6, 8
+_OVERWRITE_SIDES, _OVERWRITE_JUMP = 9, 10  # 11: all keys
+
+
 @fast
 def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
-    kind = random_below(source, 12)
+    kind = random_below(source, _EDITS)
     by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
     sign = 1 if random_below(source, 2) else -1
-    if kind == 0:
+    if kind == _CUT:
         cut(keys, length, tick, min(by, 3))
         return tick, min(by, 3)
-    if kind == 1:
+    if kind == _STRETCH:
         stretch(keys, length, tick, min(by, 3))
         return tick, -min(by, 3)
-    if kind == 2:
+    if kind == _TRADE:
         # Remove ticks here and add as many a little later: the keys between come earlier.
         other = min(tick + 1 + random_below(source, 60), length - 1)
         if sign > 0:
@@ -107,16 +117,17 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
             stretch(keys, length, tick, by)
             cut(keys, length, min(other + by, length - 1), by)
         return tick, 0
-    if kind <= 4:
-        return shift_boundary(keys, length, tick, 3, sign * by), 0
-    if kind <= 6:
+    if kind <= _UP_TO_SHIFT_SIDES:
+        return shift_boundary(keys, length, tick, _SIDES, sign * by), 0
+    if kind <= _UP_TO_SHIFT_JUMP:
         return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
-    if kind <= 8:
+    if kind <= _UP_TO_SHIFT_PULSE:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
-    way = random_below(source, 3) if kind != 10 else 0
-    jump = JUMP_HELD * random_below(source, 2) if kind != 9 else 0
-    overwrite(keys, length, tick, tick + span, (3, JUMP_HELD, KEYS_DOWN)[kind - 9], way + jump)
+    way = random_below(source, 3) if kind != _OVERWRITE_JUMP else 0
+    jump = JUMP_HELD * random_below(source, 2) if kind != _OVERWRITE_SIDES else 0
+    mask = _SIDES if kind == _OVERWRITE_SIDES else JUMP_HELD if kind == _OVERWRITE_JUMP else KEYS_DOWN
+    overwrite(keys, length, tick, tick + span, mask, way + jump)
     return tick, 0
 
 
@@ -153,12 +164,12 @@ class Runs(NamedTuple):
 def score_of(w: World) -> float:
     """Ticks of a run that has just reached the exit, less 0 to 0.99 for the depth of the contact."""
     n = w.ninja
-    nearest = 22.0
+    nearest = EXIT_RADIUS + RADIUS
     for slot in range(1, w.id_count + 1):
         o = w.objects[slot]
         if o.kind == EXIT and o.is_open:
             nearest = min(nearest, sqrt((o.x - n.x) * (o.x - n.x) + (o.y - n.y) * (o.y - n.y)))
-    return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
+    return float(w.tick) - 0.99 * (1.0 - nearest / (EXIT_RADIUS + RADIUS))
 
 
 @kernel
