@@ -147,6 +147,12 @@ def test_an_unknown_command_is_refused_with_the_list(capsys: pytest.CaptureFixtu
     assert "change-rules" in capsys.readouterr().out
 
 
+def test_the_readme_lists_the_same_commands() -> None:
+    table = (ROOT / "README.md").read_text("utf-8").partition("## Maintainers")[2]
+    listed = re.findall(r"^\| `python3 tools/dev\.py (\S+?)[ `]", table, re.MULTILINE)
+    assert sorted(listed) == sorted(re.findall(r"^  (\S+)  ", dev.__doc__ or "", re.MULTILINE))
+
+
 def test_old_pythons_are_told_what_is_needed() -> None:
     source = (ROOT / "tools" / "dev.py").read_text("utf-8")
     # The check stands before anything that a Python of those days could trip over when it runs.
