@@ -263,7 +263,10 @@ class EditorCommands(DocumentCommands):
             self.app.notify("No problems found")
             return
         self._finding = index % len(findings)
-        self.show_finding(findings[self._finding])
+        self.view.finding = findings[self._finding]
+        self.show_finding(self.view.finding)
+        more = "; F4 goes to the next" if len(findings) > 1 else ""
+        self.view.hint = f"Problem {self._finding + 1} of {len(findings)}: the list says how to fix it{more}"
 
     def show_finding(self, finding: Finding) -> None:
         tools = self.session.tools
