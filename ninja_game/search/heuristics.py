@@ -152,13 +152,9 @@ FARTHEST = 20_000.0
 """Ticks that an unreachable place counts in sums."""
 SWITCH_COST = 3.0
 """Factor of a step beside a switch that is better touched later."""
-_MOST_AFTER_SWITCH = 5000.0
-"""Most ticks that the way on from a switch counts at it."""
-_EXIT_SWITCH_TICKS = 30.0
-"""Ticks that touching an exit's switch counts, besides the ways."""
-_NEAR = 15.0
-"""Px from an object: points there touch it, as far as the field knows (the ninja touches from 14 to 22 px away)."""
-_FARTHEST_TOUCH = EXIT_RADIUS + RADIUS
+_MOST_AFTER_SWITCH = 5000.0  # most ticks that the way on from a switch counts at it
+_EXIT_SWITCH_TICKS = 30.0  # ticks that an exit's switch costs, besides the ways
+_NEAR = 15.0  # px from an object within which a point counts as touching it
 
 FieldSource = tuple[float, float, float]
 """Start of a field: place (px) and value there (ticks)."""
@@ -291,7 +287,7 @@ class Heuristics:
             # The ninja touches an object from up to 16 px away: any free point around it is enough.
             near = points_about(x, y, _NEAR)
             free = [point for point in near if costs[point] > 0.0]
-            free = free or [point for point in points_about(x, y, _FARTHEST_TOUCH) if costs[point] > 0.0] or near
+            free = free or [point for point in points_about(x, y, EXIT_RADIUS + RADIUS) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
         compiled_if_possible(lower_field)(costs, self.blocked, field, self._queue, self._waiting)
         return field

@@ -17,7 +17,7 @@ from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Keys
 from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN, with_press_bit, with_press_bits
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.schema.declare import f8, fast, i8, kernel, struct
@@ -87,18 +87,15 @@ def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
     return max(min(start, start + by), 0)
 
 
-_SIDES = KEY_LEFT + KEY_RIGHT
-
-# Kinds of edits: a number below ``_EDITS``; a name with UP_TO stands for two numbers, its own and the one before.
-_EDITS = 12
+_SIDES = KEYS_DOWN - JUMP_HELD
+# Kinds of edits, by the last of their numbers; those that change keys in place are the last three.
 _CUT, _STRETCH, _TRADE = 0, 1, 2
-_UP_TO_SHIFT_SIDES, _UP_TO_SHIFT_JUMP, _UP_TO_SHIFT_PULSE = 4, 6, 8
-_OVERWRITE_SIDES, _OVERWRITE_JUMP = 9, 10  # 11: all keys
+_SHIFT_SIDES, _SHIFT_JUMP, _SHIFT_PULSE, _SET_SIDES, _SET_JUMP, _SET_ALL = 4, 6, 8, 9, 10, 11
 
 
 @fast
 def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
-    kind = random_below(source, _EDITS)
+    kind = random_below(source, _SET_ALL + 1)
     by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
     sign = 1 if random_below(source, 2) else -1
     if kind == _CUT:
@@ -117,17 +114,16 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
             stretch(keys, length, tick, by)
             cut(keys, length, min(other + by, length - 1), by)
         return tick, 0
-    if kind <= _UP_TO_SHIFT_SIDES:
+    if kind <= _SHIFT_SIDES:
         return shift_boundary(keys, length, tick, _SIDES, sign * by), 0
-    if kind <= _UP_TO_SHIFT_JUMP:
+    if kind <= _SHIFT_JUMP:
         return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
-    if kind <= _UP_TO_SHIFT_PULSE:
+    if kind <= _SHIFT_PULSE:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
-    way = random_below(source, 3) if kind != _OVERWRITE_JUMP else 0
-    jump = JUMP_HELD * random_below(source, 2) if kind != _OVERWRITE_SIDES else 0
-    mask = _SIDES if kind == _OVERWRITE_SIDES else JUMP_HELD if kind == _OVERWRITE_JUMP else KEYS_DOWN
-    overwrite(keys, length, tick, tick + span, mask, way + jump)
+    way = random_below(source, 3) if kind != _SET_JUMP else 0
+    jump = JUMP_HELD * random_below(source, 2) if kind != _SET_SIDES else 0
+    overwrite(keys, length, tick, tick + span, (_SIDES, JUMP_HELD, KEYS_DOWN)[kind - _SET_SIDES], way + jump)
     return tick, 0
 
 
