@@ -432,7 +432,7 @@ class Findings(EditorPart):
     def __init__(self, view: EditorView, go_to: Callable[[int], object]) -> None:
         super().__init__(view)
         self._shown: list[Finding] = []
-        self._gone_to: Finding | None = None
+        self._gone_to = -1
         self._lines: list[tuple[int, str]] = []
         self.list = ListView(self.area, 19, self._draw_row, lambda row: go_to(self._lines[row][0]))
         self.list.empty, self.list.hint = "No problems found", "A click goes there and selects it"
@@ -452,10 +452,10 @@ class Findings(EditorPart):
             ]
             self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, width, 9.5)]
             self.list.fill(self._lines)
-        if self._gone_to is not self.view.finding:
+        if self._gone_to != self.view.finding:
             self._gone_to = self.view.finding
-            rows = [row for row, (number, _) in enumerate(self._lines) if self._shown[number] is self._gone_to]
-            for self.list.index in rows[::-1]:  # as much of it as there is room for, the first line at least
+            rows = [row for row, (number, _) in enumerate(self._lines) if number == self._gone_to]
+            for self.list.index in reversed(rows):
                 self.list.fill(self._lines)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:

@@ -14,7 +14,6 @@ from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, object_type
 from ninja_game.editor.stamp import Stamp, area_around, area_between, nearest_part
 from ninja_game.editor.tools import PICK_REACH, EditorTools
 from ninja_game.formats.messages import messages_at
-from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
@@ -228,7 +227,7 @@ class EditorView(Pane):
         self._pressed: tuple[Cell, int, Draft] | None = None
         self._message: int | None = None  #: the number of the message on whose bubble Select was clicked last
         self.camera = Camera(2.0 ** (1 / DOUBLE), 4.0)  #: the shown part of the level
-        self.finding: Finding | None = None  #: the problem that was gone to last
+        self.finding = -1  #: the number of the problem that was gone to last
         self._mouse = (0, 0)
         self._held = False
         self._marked: tuple[object, ...] = ()

@@ -1187,7 +1187,7 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     assert [number for number, _ in part._lines] == [0, 0, 0, 1]
     x, y, w, h = part.list.row_area(2)
     room.mouse(x + w / 2, y + h / 2)
-    assert room.editor.view.hint == "Problem 1 of 2: the list says how to fix it; F4 goes to the next"
+    assert room.editor.view.hint == "Problem 1 of 2: the list says how to fix it"
 
 
 def test_the_problem_that_f4_goes_to_is_in_sight_in_the_list(room: Maker) -> None:
