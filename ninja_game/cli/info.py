@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -97,18 +97,14 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
     return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 
-def _said(level: NamedLevel) -> Iterator[str]:
+def _said(level: NamedLevel) -> list[str]:
     """The messages, each with its moment, as players with the default keys see them in their first try."""
-    if not level.says:
-        return
-    from ninja_game.formats.messages import SEPARATOR, parse_messages
+    from ninja_game.formats.messages import SEPARATOR
     from ninja_game.play.level.hud_view import level_text
     from ninja_game.ui.input.bindings import Bindings
 
-    key, gold = Bindings().name, _kind_counts(level)["gold"]
-    for part, message in zip(level.says.split(SEPARATOR), parse_messages(level.says), strict=True):
-        moment = part.partition(":")[0].strip()
-        yield f"{moment}: {level_text(message.one_line, key, 0, gold, 0)}"
+    text = level_text(level.says, Bindings().name, 0, _kind_counts(level)["gold"], 0)
+    return [part.strip().replace(r"\n", " ") for part in text.split(SEPARATOR)]
 
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
@@ -141,7 +137,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" if comment else ""))
     if level.teaches:
         console.print(Text(f"teaches: {shown_text(level.teaches)}"))
-    for line in _said(level):
+    for line in _said(level) if level.says else ():
         console.print(Text(f"says, {shown_text(line, len(line))}"))
     console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:

@@ -80,13 +80,9 @@ class Page {
     addEventListener("pagehide", () => this.saveAll());
     addEventListener("blur", () => this.touch.release());
     addEventListener("hashchange", () => this.openLink().catch(failed));
-    addEventListener("beforeunload", (event) => this.leavingLoses && event.preventDefault());
+    addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.writing || (!this.stopped && this.folder.unsaved)) && event.preventDefault());
     new ResizeObserver(() => this.host.resize()).observe(canvas);
     addEventListener("pointermove", () => this.stirred(), { passive: true });
-  }
-
-  get leavingLoses() {
-    return this.state === "play" || this.folder.writing || (!this.stopped && this.folder.unsaved);
   }
 
   // The pointer and the page's button show themselves while the mouse moves.
@@ -155,8 +151,8 @@ class Page {
   async end() {
     this.stop();
     await this.folder.saving;
-    const advice = this.folder.unsaved ? "What you did last could not be saved in this browser." : "You may close this tab.";
-    showStop("The game has ended", advice, reloading("Play again"));
+    const lost = this.folder.unsaved && "What you did last could not be saved in this browser.";
+    showStop("The game has ended", lost || "You may close this tab.", reloading("Play again"));
   }
 
   stop() {
