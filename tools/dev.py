@@ -58,7 +58,6 @@ PROGRAMS = {
 DRAWINGS = ("draw.how_it_works", "draw.screens")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
-GOOD = "lint: all good"
 CORES = str(min(4, 1 + (os.cpu_count() or 1)))
 
 
@@ -136,10 +135,9 @@ def pip_install(names: Sequence[str]) -> bool:
     return run("python", "-m", "pip", "install", "--quiet", "-c", str(constraints), "--editable", project, *tools) == 0
 
 
-def lint(steps: Sequence[Sequence[str]]) -> str:
-    """Style, format, types and the import contract: what is to be said of them below everything else."""
-    failed = [" ".join(words) for words in steps if run(*words)]
-    return f"lint: {', '.join(failed)} failed" if failed else GOOD
+def lint(steps: Sequence[Sequence[str]]) -> list[str]:
+    """Run the checks of style, format, types and the import contract; the commands that failed."""
+    return [" ".join(words) for words in steps if run(*words)]
 
 
 def tool(folder: str, name: str, *rest: str) -> int:
@@ -178,10 +176,10 @@ def main(words: Sequence[str]) -> int:
             words = [program("python"), "-m", "pytest", "--collect-only", "-q"]
             quiet = subprocess.DEVNULL
             with subprocess.Popen(words, cwd=ROOT, stdout=quiet, stderr=quiet) if name == "test" else nullcontext():
-                told = lint(FIX if "--fix" in rest else LINT)
+                faults = lint(FIX if "--fix" in rest else LINT)
             failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal", *chosen)
-            print(told, flush=True)
-            return int(failed or told != GOOD)
+            print(f"lint: {', '.join(faults)} failed" if faults else "lint: all good", flush=True)
+            return int(failed or bool(faults))
         case "test", *rest:
             return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:

@@ -97,6 +97,16 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
     return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 
+def _said(level: NamedLevel) -> list[str]:
+    """The messages, each with its moment, as players with the default keys see them in their first try."""
+    from ninja_game.formats.messages import SEPARATOR
+    from ninja_game.play.level.hud_view import level_text
+    from ninja_game.ui.input.bindings import Bindings
+
+    text = level_text(level.says, Bindings().name, 0, _kind_counts(level)["gold"], 0)
+    return [part.strip().replace(r"\n", " ") for part in text.split(SEPARATOR)]
+
+
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
     from ninja_game.formats.n14.level_string import level_digest
     from ninja_game.levels.lint import level_warnings
@@ -127,8 +137,8 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" if comment else ""))
     if level.teaches:
         console.print(Text(f"teaches: {shown_text(level.teaches)}"))
-    if level.says:
-        console.print(Text(f"says: {shown_text(level.says)}"))
+    for line in _said(level) if level.says else ():
+        console.print(Text(f"says, {shown_text(line, len(line))}"))
     console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:
         console.print(level_picture(level.level), soft_wrap=True)

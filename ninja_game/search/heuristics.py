@@ -17,7 +17,7 @@ from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, EXIT_RADIUS, RADIUS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED
@@ -152,6 +152,9 @@ FARTHEST = 20_000.0
 """Ticks that an unreachable place counts in sums."""
 SWITCH_COST = 3.0
 """Factor of a step beside a switch that is better touched later."""
+_MOST_AFTER_SWITCH = 5000.0  # most ticks that the way on from a switch counts at it
+_EXIT_SWITCH_TICKS = 30.0  # ticks that an exit's switch costs, besides the ways
+_NEAR = 15.0  # px from an object within which a point counts as touching it
 
 FieldSource = tuple[float, float, float]
 """Start of a field: place (px) and value there (ticks)."""
@@ -198,7 +201,7 @@ class Heuristics:
             elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
             elif kind == kinds.MINE:
-                self.costs[points_about(x, y, 15.0)] *= np.float32(MINE_COST)
+                self.costs[points_about(x, y, _NEAR)] *= np.float32(MINE_COST)
             elif kind == kinds.ONE_WAY:
                 self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
@@ -256,8 +259,8 @@ class Heuristics:
                 sources.append((exit_.x, exit_.y, 0.0))
             else:
                 home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
-                rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), 5000.0)
-                sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
+                rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), _MOST_AFTER_SWITCH)
+                sources.append((exit_.switch_x, exit_.switch_y, rest + _EXIT_SWITCH_TICKS))
         return sources
 
     def _toward(
@@ -275,16 +278,16 @@ class Heuristics:
                 return imagined
             visited.add(door.slot)
             # First to the switch; the value there is that of the imagined way, which falls a lot once the door is open.
-            rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
+            rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), _MOST_AFTER_SWITCH)
             sources = [(door.switch_x, door.switch_y, rest)]
 
     def _field(self, costs: Costs, sources: list[FieldSource]) -> DistanceField:
         field = np.full(POINTS, UNREACHED, np.float32)
         for x, y, value in sources:
             # The ninja touches an object from up to 16 px away: any free point around it is enough.
-            near = points_about(x, y, 15.0)
+            near = points_about(x, y, _NEAR)
             free = [point for point in near if costs[point] > 0.0]
-            free = free or [point for point in points_about(x, y, 22.0) if costs[point] > 0.0] or near
+            free = free or [point for point in points_about(x, y, EXIT_RADIUS + RADIUS) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
         compiled_if_possible(lower_field)(costs, self.blocked, field, self._queue, self._waiting)
         return field

@@ -19,6 +19,7 @@ from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.nodes import MUTATIONS, RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bit, with_press_bits
 from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.schema.declare import f8, fast, i8, kernel, struct
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
@@ -86,18 +87,24 @@ def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
     return max(min(start, start + by), 0)
 
 
+_SIDES = KEYS_DOWN - JUMP_HELD
+# Kinds of edits, by the last of their numbers; those that change keys in place are the last three.
+_CUT, _STRETCH, _TRADE = 0, 1, 2
+_SHIFT_SIDES, _SHIFT_JUMP, _SHIFT_PULSE, _SET_SIDES, _SET_JUMP, _SET_ALL = 4, 6, 8, 9, 10, 11
+
+
 @fast
 def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
-    kind = random_below(source, 12)
+    kind = random_below(source, _SET_ALL + 1)
     by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
     sign = 1 if random_below(source, 2) else -1
-    if kind == 0:
+    if kind == _CUT:
         cut(keys, length, tick, min(by, 3))
         return tick, min(by, 3)
-    if kind == 1:
+    if kind == _STRETCH:
         stretch(keys, length, tick, min(by, 3))
         return tick, -min(by, 3)
-    if kind == 2:
+    if kind == _TRADE:
         # Remove ticks here and add as many a little later: the keys between come earlier.
         other = min(tick + 1 + random_below(source, 60), length - 1)
         if sign > 0:
@@ -107,16 +114,16 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
             stretch(keys, length, tick, by)
             cut(keys, length, min(other + by, length - 1), by)
         return tick, 0
-    if kind <= 4:
-        return shift_boundary(keys, length, tick, 3, sign * by), 0
-    if kind <= 6:
+    if kind <= _SHIFT_SIDES:
+        return shift_boundary(keys, length, tick, _SIDES, sign * by), 0
+    if kind <= _SHIFT_JUMP:
         return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
-    if kind <= 8:
+    if kind <= _SHIFT_PULSE:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
-    way = random_below(source, 3) if kind != 10 else 0
-    jump = JUMP_HELD * random_below(source, 2) if kind != 9 else 0
-    overwrite(keys, length, tick, tick + span, (3, JUMP_HELD, KEYS_DOWN)[kind - 9], way + jump)
+    way = random_below(source, 3) if kind != _SET_JUMP else 0
+    jump = JUMP_HELD * random_below(source, 2) if kind != _SET_SIDES else 0
+    overwrite(keys, length, tick, tick + span, (_SIDES, JUMP_HELD, KEYS_DOWN)[kind - _SET_SIDES], way + jump)
     return tick, 0
 
 
@@ -153,12 +160,12 @@ class Runs(NamedTuple):
 def score_of(w: World) -> float:
     """Ticks of a run that has just reached the exit, less 0 to 0.99 for the depth of the contact."""
     n = w.ninja
-    nearest = 22.0
+    nearest = EXIT_RADIUS + RADIUS
     for slot in range(1, w.id_count + 1):
         o = w.objects[slot]
         if o.kind == EXIT and o.is_open:
             nearest = min(nearest, sqrt((o.x - n.x) * (o.x - n.x) + (o.y - n.y) * (o.y - n.y)))
-    return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
+    return float(w.tick) - 0.99 * (1.0 - nearest / (EXIT_RADIUS + RADIUS))
 
 
 @kernel

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -143,3 +144,18 @@ def test_levels_and_packs_are_read_without_numpy() -> None:
     code = f"import sys; sys.modules['numpy'] = None; {read}"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert result.stdout == "100\n", result.stderr
+
+
+def test_messages_are_shown_a_line_each_as_players_see_them(tmp_path: Path) -> None:
+    level = (data_folder("levels") / "00-0-first-steps.txt").read_text("utf-8")
+    long = f"at 12,5 3x1 for 9 s: {{retry}}:\\n{'far ' * 26}away"
+    says = f"says: start: {{jump}} to the {{switch}} | gold 2: {{gold left}} left | {long}\n"
+    path = tmp_path / "a.txt"
+    path.write_text(re.sub(r"says: .*\n", lambda _: says, level), "utf-8")
+    lines = info(path, "--no-picture").stdout.splitlines()
+    shown = [line for line in lines if line.startswith("says")]
+    assert shown[0] == "says, start: Z to the switch"
+    assert shown[1] == f"says, gold 2: {json.loads(info(path, '--json').stdout)['objects']['gold']} left"
+    assert "says, at 12,5 3x1 for 9 s: R: far far" in shown[2]
+    assert "far away" in " ".join(lines)
+    assert "..." not in " ".join(lines)

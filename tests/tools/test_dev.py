@@ -125,6 +125,19 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
         assert f"{name}=={version}" in asked
 
 
+def test_lint_fails_with_the_names_of_what_failed(
+    installed: list[tuple[str, ...]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    broken = {"mypy", "lint-imports"}
+    monkeypatch.setattr(dev, "run", lambda *words: int(words[0] in broken))
+    assert dev.main(["lint"]) == 1
+    assert capsys.readouterr().out == "lint: mypy, lint-imports failed\n"
+    broken.clear()
+    assert dev.main(["lint"]) == 0
+    assert capsys.readouterr().out == "lint: all good\n"
+    assert len(installed) == 2
+
+
 def test_an_unknown_command_is_refused_with_the_list(capsys: pytest.CaptureFixture[str]) -> None:
     assert dev.main(["chekc"]) == 2
     told = capsys.readouterr()
@@ -132,6 +145,12 @@ def test_an_unknown_command_is_refused_with_the_list(capsys: pytest.CaptureFixtu
     assert "change-rules" in told.err
     assert dev.main(["--help"]) == 0
     assert "change-rules" in capsys.readouterr().out
+
+
+def test_the_readme_lists_the_same_commands() -> None:
+    table = (ROOT / "README.md").read_text("utf-8").partition("## Maintainers")[2]
+    listed = re.findall(r"^\| `python3 tools/dev\.py (\S+?)[ `]", table, re.MULTILINE)
+    assert sorted(listed) == sorted(re.findall(r"^  (\S+)  ", dev.__doc__ or "", re.MULTILINE))
 
 
 def test_old_pythons_are_told_what_is_needed() -> None:

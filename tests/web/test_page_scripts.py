@@ -64,3 +64,58 @@ def test_the_check_sees_what_is_wrong() -> None:
     assert found["unknown.js"] == {"unknown": ["lenght"], "unused": []}
     assert found["unused.js"] == {"unknown": [], "unused": ["b", "c", "e"]}
     assert "SyntaxError" in found["broken.js"]["error"]
+
+
+STORAGE = """
+import { PlayerFolder } from "./storage.mjs";
+const said = [], syncs = [];
+const fs = { syncfs: (reading, done) => syncs.push(done) };
+const folder = new PlayerFolder(fs);
+let state = 1, clock = 0;
+Object.defineProperty(globalThis, "performance", { value: { now: () => clock } });
+folder.state = () => state;
+folder.seen = 0;
+const tell = (text) => said.push(text);
+const settled = () => new Promise((done) => setTimeout(done));
+const save = (options) => folder.saveChanges(tell, options);
+const answer = async (error) => { syncs.shift()(error); await settled(); };
+const log = [];
+const note = () => log.push([syncs.length, folder.unsaved, said.length ? said.pop() : ""]);
+save(); note();
+await answer(new Error("no room")); note();
+save(); note(); // too early
+clock += 3000; save(); note();
+await answer(new Error("no room")); note();
+save({ now: true }); note(); // the page is left
+state = 2;
+await answer(null); note(); // what changed meanwhile is written too
+await answer(null); note();
+save(); note();
+state = 3; save(); await folder.saving; save(); note(); // a slow write: the game goes on, no second one begins
+await answer(null); note();
+console.log(JSON.stringify(log));
+process.exit();
+"""
+
+
+def test_what_could_not_be_saved_is_tried_again_until_it_is(tmp_path: Path) -> None:
+    if shutil.which("node") is None:
+        pytest.skip("there is no Node.js")
+    (tmp_path / "storage.mjs").write_text((ROOT / "ninja_game/web/page/storage.js").read_text("utf-8"), "utf-8")
+    (tmp_path / "try.mjs").write_text(STORAGE, "utf-8")
+    done = subprocess.run(["node", "try.mjs"], cwd=tmp_path, check=False, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    failed = "Not saved in this browser: no room. It is tried again."
+    assert json.loads(done.stdout) == [
+        [1, True, ""],
+        [0, True, failed],
+        [0, True, ""],
+        [1, True, ""],
+        [0, True, failed],
+        [1, True, ""],
+        [1, True, ""],
+        [0, False, "Saved in this browser"],
+        [0, False, ""],
+        [1, True, ""],
+        [0, False, ""],
+    ]

@@ -100,7 +100,6 @@ class EditorCommands(DocumentCommands):
         self.session = session
         self.view = view
         self._palette = palette
-        self._finding = -1
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
@@ -148,7 +147,7 @@ class EditorCommands(DocumentCommands):
             "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
             "tests": self.switch_tests,
             "reach": self.next_reach,
-            "next_finding": lambda: self.go_to_finding(self._finding + 1),
+            "next_finding": lambda: self.go_to_finding(self.view.finding + 1),
             "next_entry": lambda: self._palette.step(1),
             "previous_entry": lambda: self._palette.step(-1),
         }  # fmt: skip
@@ -262,8 +261,9 @@ class EditorCommands(DocumentCommands):
         if not findings:
             self.app.notify("No problems found")
             return
-        self._finding = index % len(findings)
-        self.show_finding(findings[self._finding])
+        self.view.finding = index % len(findings)
+        self.show_finding(findings[self.view.finding])
+        self.view.hint = f"Problem {self.view.finding + 1} of {len(findings)}: the list says how to fix it"
 
     def show_finding(self, finding: Finding) -> None:
         tools = self.session.tools

@@ -296,10 +296,10 @@ def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
 _TOP, TALL, _GAP = 4.0, 21.0, 2.0
 
 _BUTTONS = (
-    ("file", "File", 34, 0), ("undo", "Undo", 36, 0), ("redo", "Redo", 36, 4),
-    ("brush", "Brush", 40, 0), ("rectangle", "Box", 32, 0), ("line", "Line", 34, 0), ("ellipse", "Ellipse", 46, 0),
-    ("fill", "Fill", 30, 0), ("select", "Select", 44, 0), ("pick", "Pick", 34, 4),
-    ("symmetry", "Mirror: {symmetry}", 80, 0), ("grid", "Grid: {grid}", 80, 0), ("snap_next", "Snap: {snap}", 64, 4),
+    ("file", "File", 30, 0), ("undo", "Undo", 36, 0), ("redo", "Redo", 36, 4),
+    ("brush", "Brush", 38, 0), ("rectangle", "Box", 28, 0), ("line", "Line", 30, 0), ("ellipse", "Ellipse", 42, 0),
+    ("fill", "Fill", 26, 0), ("select", "Select", 42, 0), ("pick", "Pick", 32, 4),
+    ("symmetry", "Mirror: {symmetry}", 86, 0), ("grid", "Grid: {grid}", 92, 0), ("snap_next", "Snap: {snap}", 72, 4),
     ("test", "Test", 34, 0), ("certify", "{certify}", 46, 0), ("more", "More", 34, 0), ("help", "Help", 32, 0),
 )  # fmt: skip
 """Command, text, width, more than the usual gap behind it, px."""
@@ -432,13 +432,14 @@ class Findings(EditorPart):
     def __init__(self, view: EditorView, go_to: Callable[[int], object]) -> None:
         super().__init__(view)
         self._shown: list[Finding] = []
+        self._gone_to = -1
         self._lines: list[tuple[int, str]] = []
         self.list = ListView(self.area, 19, self._draw_row, lambda row: go_to(self._lines[row][0]))
         self.list.empty, self.list.hint = "No problems found", "A click goes there and selects it"
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:
-        return (id(self._shown),)
+        return tuple(self._lines), self.list.first
 
     def update(self, real_ms: int) -> None:
         if self._shown is not self.session.findings:
@@ -451,6 +452,11 @@ class Findings(EditorPart):
             ]
             self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, width, 9.5)]
             self.list.fill(self._lines)
+        if self._gone_to != self.view.finding:
+            self._gone_to = self.view.finding
+            rows = [row for row, (number, _) in enumerate(self._lines) if number == self._gone_to]
+            for self.list.index in reversed(rows):
+                self.list.fill(self._lines)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         number, line = self._lines[index]

@@ -227,6 +227,7 @@ class EditorView(Pane):
         self._pressed: tuple[Cell, int, Draft] | None = None
         self._message: int | None = None  #: the number of the message on whose bubble Select was clicked last
         self.camera = Camera(2.0 ** (1 / DOUBLE), 4.0)  #: the shown part of the level
+        self.finding = -1  #: the number of the problem that was gone to last
         self._mouse = (0, 0)
         self._held = False
         self._marked: tuple[object, ...] = ()
@@ -388,7 +389,7 @@ class EditorView(Pane):
             tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
             tools.marquee, tools.placing_switch, tools.draft, self.message,
-            self.session.reach and id(self.session.reach),
+            self.session.reach and self.session.reach[1:],
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:

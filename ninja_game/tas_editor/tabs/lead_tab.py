@@ -132,7 +132,8 @@ class LeadTab(Tab):
         return "; ".join(parts)
 
     def render_key(self) -> tuple[object, ...]:
-        return self._choice.options, self._theirs(), self.summary, id(self.table), self.editor.cursor, self.list.over
+        rows = self.table and self.table.rows
+        return self._choice.options, self._theirs(), self.summary, rows, self.editor.cursor, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

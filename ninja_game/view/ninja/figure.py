@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, radians, sin
+from math import cos, radians, sin, tau
 from typing import NamedTuple
 
 import pygame
@@ -102,14 +102,14 @@ def air_pose(vy: float) -> Pose:
 CYCLE = 64.8
 _STANCE = 0.25  # share of a cycle in which a foot is on the ground; it then moves back as fast as the body moves on
 _REACH = CYCLE * _STANCE / 2
-_SWING = ((-_REACH, 9.7), (-10.2, 5.0), (-6.6, 1.6), (0.6, 2.8), (6.4, 5.0), (9.0, 7.8), (_REACH, 9.7))
+_SWING = ((-_REACH, FEET), (-10.2, 5.0), (-6.6, 1.6), (0.6, 2.8), (6.4, 5.0), (9.0, 7.8), (_REACH, FEET))
 """The path of a foot through the air, from back to front."""
 
 
 def _foot(phase: float) -> Point:
     phase %= 1.0
     if phase < _STANCE:
-        return _REACH - CYCLE * phase, 9.7
+        return _REACH - CYCLE * phase, FEET
     way = (phase - _STANCE) / (1 - _STANCE) * (len(_SWING) - 1)
     k = min(int(way), len(_SWING) - 2)
     return _spline(_SWING, k, way - k)
@@ -130,11 +130,11 @@ def run_pose(phase: float, speed: float) -> Pose:
     """The pose at a phase (0…1) of the running cycle; slow steps are shorter. ``speed``: px/tick."""
     vigour = min(1.0, 0.4 + speed / 5.0)
     lean = min(1.0, speed / 4.0)
-    swing = sin(2 * 3.141592653589793 * (phase + 0.12))
-    bob = 0.7 * cos(4 * 3.141592653589793 * (phase - 0.08)) * vigour
+    swing = sin(tau * (phase + 0.12))
+    bob = 0.7 * cos(2 * tau * (phase - 0.08)) * vigour
     near, far = _foot(phase), _foot(phase + 0.5)
-    near = near[0] * vigour, 9.7 - (9.7 - near[1]) * vigour
-    far = far[0] * vigour, 9.7 - (9.7 - far[1]) * vigour
+    near = near[0] * vigour, FEET - (FEET - near[1]) * vigour
+    far = far[0] * vigour, FEET - (FEET - far[1]) * vigour
     pelvis = -0.6, 1.4 + bob
     shoulder = 0.2 + 1.9 * lean, -4.0 + bob
     near_hand = shoulder[0] - 6.4 * swing * vigour, -0.2 + bob - 2.4 * abs(swing)

@@ -116,6 +116,7 @@ export class Panel {
 
   async takeIn(file) {
     const text = this.page.services.take_in(new Uint8Array(await file.arrayBuffer()));
+    await this.page.folder.writing;
     await this.page.folder.sync(false);
     this.tell("Taken in", text);
     dialog.addEventListener("close", () => this.page.reload());

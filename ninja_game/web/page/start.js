@@ -80,7 +80,7 @@ class Page {
     addEventListener("pagehide", () => this.saveAll());
     addEventListener("blur", () => this.touch.release());
     addEventListener("hashchange", () => this.openLink().catch(failed));
-    addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.saving) && event.preventDefault());
+    addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.writing || (!this.stopped && this.folder.unsaved)) && event.preventDefault());
     new ResizeObserver(() => this.host.resize()).observe(canvas);
     addEventListener("pointermove", () => this.stirred(), { passive: true });
   }
@@ -104,7 +104,7 @@ class Page {
   saveAll() {
     if (this.stopped) return;
     this.services.flush();
-    this.folder.saveChanges(() => {});
+    this.folder.saveChanges(() => {}, { now: true });
   }
 
   turn(now) {
@@ -151,7 +151,8 @@ class Page {
   async end() {
     this.stop();
     await this.folder.saving;
-    showStop("The game has ended", "You may close this tab.", reloading("Play again"));
+    const lost = this.folder.unsaved && "What you did last could not be saved in this browser.";
+    showStop("The game has ended", lost || "You may close this tab.", reloading("Play again"));
   }
 
   stop() {

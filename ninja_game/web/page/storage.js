@@ -2,12 +2,14 @@
 
 export const HOME = "/ninja-game-player";
 const SLOW = 1000; // ms for which a slow disk may hold the game up
+const RETRY = 3000; // ms after a failed write; less than a notice of it is shown
 
 export class PlayerFolder {
   constructor(fs) {
     this.fs = fs;
     this.lasting = true;
-    this.saving = null;
+    this.writing = this.saving = null;
+    this.retryAt = 0;
   }
 
   // Mount the folder and read it. Where there is no database (a private window), it lasts as long as the page.
@@ -25,8 +27,11 @@ export class PlayerFolder {
     this.exports = new Set(this.names("exports"));
   }
 
-  sync(reading) {
-    return new Promise((done, failed) => this.fs.syncfs(reading, (error) => (error ? failed(error) : done())));
+  // Read the folder, or write it; only what is written counts as `seen`.
+  async sync(reading) {
+    const state = this.state();
+    await new Promise((done, failed) => this.fs.syncfs(reading, (error) => (error ? failed(error) : done())));
+    this.seen = state;
   }
 
   names(folder) {
@@ -35,9 +40,7 @@ export class PlayerFolder {
 
   // A text that changes with every change of a file.
   state() {
-    let count = 0;
-    let newest = 0;
-    let bytes = 0;
+    let [count, newest, bytes] = [0, 0, 0];
     const walk = (node) => {
       count += 1;
       newest = Math.max(newest, +node.mtime);
@@ -48,19 +51,28 @@ export class PlayerFolder {
     return `${count} ${newest} ${bytes}`;
   }
 
-  // Save what changed; the promise is kept in `saving` until it is on the disk or the disk is too slow to wait for.
-  saveChanges(tell) {
-    if (!this.lasting || this.saving || this.state() === this.seen) return;
-    this.saving = this.save(tell).finally(() => (this.saving = null));
+  get unsaved() {
+    return this.lasting && this.state() !== this.seen;
+  }
+
+  // Save what changed. `writing` lasts until all is on the disk or a write fails, `saving` while the game waits for it.
+  // After a failure it is tried again once RETRY has passed, or at once if `now`.
+  saveChanges(tell, { now = false } = {}) {
+    if (this.writing || !this.unsaved || (!now && performance.now() < this.retryAt)) return;
+    this.writing = this.save(tell).finally(() => (this.writing = null));
+    const slow = new Promise((done) => setTimeout(done, SLOW));
+    this.saving = Promise.race([this.writing, slow]).finally(() => (this.saving = null));
   }
 
   // What changes meanwhile, such as the last things when the page is left, is saved too.
   async save(tell) {
-    for (let state = this.state(); state !== this.seen; state = this.state()) {
-      this.seen = state;
-      const slow = new Promise((done) => setTimeout(done, SLOW));
-      const saved = this.sync(false).catch((error) => tell(`Not saved in this browser: ${error.message ?? error}`));
-      await Promise.race([saved, slow]);
+    try {
+      while (this.unsaved) await this.sync(false);
+      if (this.retryAt) tell("Saved in this browser");
+      this.retryAt = 0;
+    } catch (error) {
+      this.retryAt = performance.now() + RETRY;
+      tell(`Not saved in this browser: ${error.message ?? error}. It is tried again.`);
     }
   }
 

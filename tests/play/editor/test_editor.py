@@ -14,10 +14,11 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
-from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, TILE_KEYS, object_of_type, placed
+from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
 from ninja_game.editor.certify import LANDED_TICK, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, with_stamp
 from ninja_game.formats.ascii.places import place_text
@@ -28,9 +29,9 @@ from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
 from ninja_game.play.editor.messages import MessagesScreen
-from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine
+from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine, Toolbar, ToolButton
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.editor.sheet import sign_mark
+from ninja_game.play.editor.sheet import GRIDS, sign_mark
 from ninja_game.play.editor.stamp_menu import StampMenu
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.main_menu import MainMenu
@@ -249,7 +250,8 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
     assert [key for key in room.editor.view.sheet.marks if key[0] == "sign"]  # type: ignore[index]
     room.press("f4")
     assert session.tools.selection.parts == {(2, 0)}
-    assert "Move it, or clear the tile." in room.editor.view.hint
+    assert "Move it, or clear the tile." in session.findings[0].advice
+    assert room.editor.view.hint == "Problem 1 of 1: the list says how to fix it"
     room.press("delete")
     room.wait(lambda: session.examined is room.draft.level, "findings")
     assert not session.findings
@@ -448,12 +450,31 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     session.certifier.certification = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
     room.wait(lambda: session.findings[:1] == [why], "the problem")
     room.press("f4")
-    assert room.editor.view.hint.endswith("Make the way there easier, or give the solver more time.")
+    assert why.advice.endswith("Make the way there easier, or give the solver more time.")
+    assert room.editor.view.hint.startswith("Problem 1 of ")
     assert session.tools.pointer == (120.0, 540.0), "the switch"
     room.press("b")
     room.drag((300, 300))
     room.wait(lambda: session.examined is room.draft.level, "findings")
     assert why not in session.findings, "of another level"
+
+
+def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlier_one(room: Maker) -> None:
+    part = next(part for part in room.editor.parts if isinstance(part, Findings))
+    lists = [[Finding("too-many-objects", "one")]]
+    address = id(lists[0])
+
+    def key() -> object:
+        with patch.object(type(part.session), "findings", lists[-1]):
+            part.update(0)
+        return part.render_key()
+
+    before = key()
+    lists[0] = []
+    assert key() != before
+    while len(lists) < 1000 and id(lists[-1]) != address:
+        lists.append([Finding("many-objects", "another")])
+    assert key() != before
 
 
 def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
@@ -1166,7 +1187,35 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     assert [number for number, _ in part._lines] == [0, 0, 0, 1]
     x, y, w, h = part.list.row_area(2)
     room.mouse(x + w / 2, y + h / 2)
-    assert room.editor.view.hint.startswith("Word word")
+    assert room.editor.view.hint == "Problem 1 of 2: the list says how to fix it"
+
+
+def test_the_problem_that_f4_goes_to_is_in_sight_in_the_list(room: Maker) -> None:
+    session = room.editor.session
+    room.wait(lambda: session.examined is room.draft.level, "findings")
+    session._checks.result = room.draft.level, [Finding("no-exit", f"word {number}") for number in range(12)]
+    part = next(part for part in room.editor.parts if isinstance(part, Findings))
+    for number in range(12):
+        room.press("f4")
+        room.frames(2)
+        assert part.list.first <= number < part.list.first + part.list.visible_lines
+        assert f"Problem {number + 1} of 12" in room.editor.view.hint
+
+
+def test_texts_of_the_buttons_above_the_level_have_room_at_both_ends(room: Maker) -> None:
+    texts = {
+        "symmetry": [f"Mirror: {name}" for name in SYMMETRIES],
+        "grid": [f"Grid: {grid.name}" for grid in GRIDS],
+        "snap_next": [f"Snap: {name}" for name in SNAPS],
+        "certify": ["Certify"],
+    }
+    bar = next(part for part in room.editor.parts if isinstance(part, Toolbar))
+    buttons = [widget for widget in bar.widgets if isinstance(widget, ToolButton)]
+    assert texts.keys() <= {button.name for button in buttons}
+    for button in buttons:
+        for text in texts.get(button.name, [button.text]):
+            assert room.app.theme.width(text, 9, bold=True) <= button.area[2] - 8, text
+        assert button.area[0] + button.area[2] <= 786
 
 
 def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room: Maker) -> None:
