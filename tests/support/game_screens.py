@@ -18,8 +18,9 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game import __version__
-from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
+from ninja_game.editor.playtests import TestMap
+from ninja_game.editor.solver import Certification
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.files.bundled import CHECKOUT, bundled_replays
 from ninja_game.files.user_folder import STAMPS

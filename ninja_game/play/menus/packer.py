@@ -9,9 +9,9 @@ from functools import cached_property
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.pack_steps import Steps
 from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of
+from ninja_game.editor.solver import SOLVER
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, file_stem, shown_text
 from ninja_game.files.user_folder import EXPORTS, short_path

@@ -17,18 +17,10 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import (
-    LANDED_TICK,
-    Ask,
-    Certification,
-    Certifier,
-    Solver,
-    find_reach,
-    passed_by,
-    search_of,
-)
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
+from ninja_game.editor.reach import LANDED_TICK, Ask, find_reach
+from ninja_game.editor.solver import Certification, Certifier, Solver, search_of
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -38,6 +30,7 @@ from ninja_game.play.editor.session import _examine
 from ninja_game.play.editor.sheet import _rects
 from ninja_game.play.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
+from ninja_game.runs.problems import passed_by
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
 from ninja_game.sim.grid import cell_of, is_inside
@@ -69,7 +62,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
         return run
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     told: list[str] = []
     monkeypatch.setattr(room.app, "notify", lambda text, **_: told.append(text))
     session, levels = room.editor.session, tmp_path / "levels"
@@ -108,7 +101,7 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
         ready.wait(LONGEST)
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     certifier = room.editor.session.certifier
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
@@ -149,7 +142,7 @@ def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
     room: Maker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session = room.editor.session
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr(session.certifier.solver.job, "ask", lambda _: None)
     session.certifier.certification = Certification(room.draft.level, began=monotonic() - 300)
     for compiles, says in ((False, "Loading the solver"), (True, "Compiling the solver, .* a minute or more")):
@@ -168,7 +161,7 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
     room: Maker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session, asked, clock = room.editor.session, list[Certification](), [1000.0]
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.play.editor.session.monotonic", lambda: clock[0])
     monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
     search = session.certifier.certification = Certification(
@@ -195,7 +188,7 @@ def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkey
     certifier, tasks = Certifier(), list[Task]()
     monkeypatch.setattr(certifier, "solver", solver := Solver())
     monkeypatch.setattr(solver.job, "ask", solver._work)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.search.solve.solve", lambda task, **_: tasks.append(task))
     level = load_levels(root / "levels" / "00-0-first-steps.txt")[0].level
     run, gold = (
@@ -211,7 +204,7 @@ def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkey
 
 def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     session, asked = room.editor.session, list[Certification]()
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
     monkeypatch.setattr(session.certifier.solver, "at_work", Certification(ROOM.level))
     room.press("f7")
@@ -236,10 +229,10 @@ def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
     assert found.sentence.startswith("locked door at 13,22"), "and it is named"
     assert passed_by(ROOM.level, [run]) == ()
-    with patch("ninja_game.editor.certify.Simulation") as played:
+    with patch("ninja_game.runs.problems.Simulation") as played:
         search_of(level, run).take(run)
     assert not played.called, "the window takes up a run that is known by now, and waits for no play"
-    with patch("ninja_game.editor.certify.Simulation") as played:
+    with patch("ninja_game.runs.problems.Simulation") as played:
         passed_by(level, [replace(run, body="box")])
     played.assert_called_once_with(level, body="box")
 

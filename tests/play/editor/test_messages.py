@@ -12,8 +12,9 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.certify import lead_in, place_before, search_of
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.playtests import lead_in, place_before
+from ninja_game.editor.solver import search_of
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages

@@ -11,8 +11,8 @@ import pygame
 import pytest
 
 from ninja_game.editor.brush import object_of_type
-from ninja_game.editor.certify import Certification, search_of
 from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.solver import Certification, search_of
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
 from ninja_game.play.editor.commands import IN_MORE, TryScreen
@@ -116,7 +116,7 @@ def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
         players.append(current_thread())
         return search_of(*of)
 
-    monkeypatch.setattr("ninja_game.editor.certify.search_of", played)
+    monkeypatch.setattr("ninja_game.play.editor.session.search_of", played)
     shutil.copy(PACK / f"{name}.txt", levels / "mine.txt")
     room.editor.commands.open_file(levels / "mine.txt")
     room.wait(lambda: session.certifier.text, "certificate")

@@ -16,10 +16,10 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs, ready_pack
-from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.pack_steps import write_file
 from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
+from ninja_game.editor.solver import SOLVER
 from ninja_game.files.user_folder import DAILY, short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
@@ -890,7 +890,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
         return run
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     screen = opened(driver)
     screen.choose_tray("yours")
     for index in (0, 1):
