@@ -107,15 +107,11 @@ class Solver:
             certification.then(certification)
 
 
-SOLVER = Solver()
-"""Shared by all editors."""
-
-
 class Certifier:
     """Certifies the level under edit. ``certification``: the newest one."""
 
-    def __init__(self) -> None:
-        self.seconds, self.solver, self.certification = SECONDS, SOLVER, Certification()
+    def __init__(self, solver: Solver) -> None:
+        self.seconds, self.solver, self.certification = SECONDS, solver, Certification()
 
     @property
     def text(self) -> str:

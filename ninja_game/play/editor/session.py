@@ -72,7 +72,7 @@ class EditorSession:
 
     def __init__(self, app: App, source: files.Source | None = None) -> None:
         self.app = app
-        self.certifier = Certifier()
+        self.certifier = Certifier(app.solver)
         self.tools = EditorTools(files.new_source().draft)
         self.tools.slopes = app.settings.slopes
         self._begin(source or files.new_source(app.settings.name, room=True))

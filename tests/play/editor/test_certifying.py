@@ -185,8 +185,8 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
 
 
 def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    certifier, tasks = Certifier(), list[Task]()
-    monkeypatch.setattr(certifier, "solver", solver := Solver())
+    tasks = list[Task]()
+    certifier = Certifier(solver := Solver())
     monkeypatch.setattr(solver.job, "ask", solver._work)
     monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.search.solve.solve", lambda task, **_: tasks.append(task))

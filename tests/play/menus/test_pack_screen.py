@@ -19,7 +19,6 @@ from ninja_game.editor import packs, ready_pack
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.pack_steps import write_file
 from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
-from ninja_game.editor.solver import SOLVER
 from ninja_game.files.user_folder import DAILY, short_path
 from ninja_game.formats.links import write_link
 from ninja_game.formats.n14.level_string import level_digest
@@ -55,8 +54,7 @@ from tests.support.waiting import LONGEST
 
 
 @pytest.fixture(name="path")
-def pack_of_the_player(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(SOLVER, "stopped", set())
+def pack_of_the_player(driver: MenuDriver) -> Path:
     path = driver.player.folder / "levels" / "laundry"
     shutil.copytree(PACK, path, ignore=shutil.ignore_patterns("gallery", "README.md"))
     index = path / "pack.toml"
