@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from functools import partial
-from threading import Event
+from threading import Event, Lock
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -30,7 +31,7 @@ SECONDS = 20.0
 
 @dataclass(eq=False)
 class Certification:
-    """The solver's work on a level."""
+    """The solver's work on a level, in its thread; the window's thread may add a run, or stop it."""
 
     level: Level | None = None
     run: Replay | None = None  #: the best one that was found
@@ -46,15 +47,26 @@ class Certification:
     failed: bool = False  #: whether an error ended it
     known: tuple[bytes, ...] = ()  #: inputs of runs of the level as it was before, tried first
     stopping: Event = field(default_factory=Event)  #: set to end it
+    lock: AbstractContextManager[object] = field(default_factory=Lock)  #: around changes by either thread
 
     def take(self, run: Replay) -> None:
         """Keep a run of the level if it is the fastest, or the fastest with all gold."""
         assert self.level is not None  # noqa: S101 - for the type checker
-        if self.run is None or run.end_tick < self.run.end_tick:
-            self.run, self.route = run, route_of(self.level, run.inputs)
-        if run.gold >= self.level.gold and (self.gold_run is None or run.end_tick < self.gold_run.end_tick):
-            self.gold_run = run
-        self.obstacles = passed_by(self.level, [known for known in (self.run, self.gold_run) if known])
+        route = route_of(self.level, run.inputs)
+        passed_by(self.level, [run])  # plays it, which is remembered, so that no thread waits for that at the lock
+        with self.lock:
+            if self.run is None or run.end_tick < self.run.end_tick:
+                self.run, self.route = run, route
+            if run.gold >= self.level.gold and (self.gold_run is None or run.end_tick < self.gold_run.end_tick):
+                self.gold_run = run
+            self.obstacles = passed_by(self.level, [known for known in (self.run, self.gold_run) if known])
+
+    def finish(self, text: str, *, failed: bool = False, obstacles: tuple[Finding, ...] = ()) -> None:
+        """End the work, unless it is over. ``obstacles``: why there is no run."""
+        with self.lock:
+            if not self.end:
+                self.end, self.failed = text, failed
+                self.obstacles = self.obstacles if self.run else obstacles
 
     @property
     def share(self) -> float:
@@ -96,13 +108,13 @@ class Solver:
             task = Task(certification.level, seconds=certification.seconds, others=certification.known)
             report = partial(setattr, certification, "progress")
             result = solve(task, report=report, on_better=certification.take, stop=certification.stopping)
-            if not (result or certification.run or certification.end) and certification.progress:
-                certification.obstacles = (obstacle(certification.level, 0, certification.progress),)
+            vain = certification.progress if not (result or certification.run or certification.end) else None
+            obstacles = (obstacle(certification.level, 0, vain),) if vain else ()
         except BaseException as error:
-            certification.end, certification.failed = reason(error), True
+            certification.finish(reason(error), failed=True)
             raise
         nothing = f"No run in {certification.seconds:.0f} s: the first problem says why. F7 looks twice as long"
-        certification.end = certification.end or ("Done" if certification.run else nothing)
+        certification.finish("Done" if certification.run else nothing, obstacles=obstacles)
         if certification.then and not certification.stopping.is_set():
             certification.then(certification)
 
@@ -198,7 +210,7 @@ class Certifier:
         """Cancel the search; its results stay. It does not wait: kernels being compiled are finished first."""
         certification = self.certification
         if self.is_busy:
-            certification.end = "Stopped"
+            certification.finish("Stopped")
             if certification.level and not certification.run:
                 self.solver.stopped.add(certification.level)
             certification.stopping.set()

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import replace
+from functools import partial
 from math import ceil, dist, inf
 from pathlib import Path
 from threading import Event
@@ -42,13 +44,15 @@ from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
+RIGHT = bytes([2]) * 100
+
 
 def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     ready, at_once = Event(), list[bool]()
     request.addfinalizer(ready.set)
-    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+    run = verified_run(ROOM.level, with_press_bits(RIGHT))
 
     def solve(
         task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object], stop: Event
@@ -120,7 +124,7 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(
     session = room.editor.session
     monkeypatch.setattr("ninja_game.play.editor.session.REST", inf)
     assert session.certify_text == "Certify"
-    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+    run = verified_run(ROOM.level, with_press_bits(RIGHT))
     for progress, best, said in (
         (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
@@ -220,11 +224,54 @@ def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monke
     assert session.certify_text == "Certify", "what was stopped stays so"
 
 
+class OtherFirst(AbstractContextManager[None]):
+    """A lock that another thread has held just before: its change comes first."""
+
+    def __init__(self, change: Callable[[], object]) -> None:
+        self.change = change
+
+    def __enter__(self) -> None:
+        self.change()
+
+    def __exit__(self, *_: object) -> None:
+        """Nothing is to be released."""
+
+
+def test_a_change_by_the_other_thread_just_before_counts() -> None:
+    slow, fast = (verified_run(ROOM.level, with_press_bits(keys)) for keys in (bytes(9) + RIGHT, RIGHT))
+    assert fast.end_tick < slow.end_tick
+    search = Certification(ROOM.level)
+    search.lock = OtherFirst(partial(setattr, search, "run", fast))
+    search.take(slow)
+    assert search.run is fast, "a slower run does not replace it"
+    for end in ("Stopped", "Done"):
+        search = Certification(ROOM.level)
+        search.lock = OtherFirst(partial(setattr, search, "end", end))
+        search.finish("MemoryError", failed=True)
+        assert (search.end, search.failed) == (end, False), "what is over stays so"
+
+
+def test_what_is_stopped_while_it_fails_stays_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    certifier = Certifier(solver := Solver())
+    monkeypatch.setattr(solver.job, "ask", lambda _: None)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
+
+    def solve(*_: object, **__: object) -> None:
+        certifier.stop()
+        raise MemoryError
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    certifier.start(ROOM.level)
+    with pytest.raises(MemoryError):
+        solver._work(certifier.certification)
+    assert (certifier.text, certifier.certification.failed) == ("Stopped", False)
+
+
 def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     switches = (130.0, 540.0), (300.0, 300.0)
     door = placed(object_of_type("locked door"), 324.0, 540.0, "cell")
     level = ROOM.with_objects((*ROOM.objects, *(with_switch(door, *at, "px") for at in switches))).level
-    run = verified_run(level, with_press_bits(bytes([2]) * 100))
+    run = verified_run(level, with_press_bits(RIGHT))
     (found,) = search_of(level, run).obstacles
     assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
     assert found.sentence.startswith("locked door at 13,22"), "and it is named"
