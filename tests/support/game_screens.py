@@ -287,7 +287,7 @@ def _help(driver: MenuDriver) -> Iterator[str]:
     """Every page, when what it tells of has just happened."""
     screen = driver.opened("Help", HelpScreen)
     for index, topic in enumerate(screen.topics):
-        screen.list._select(index)
+        screen.list.select(index)
         demonstration = screen.demonstration
         if topic == "Gauss turrets":
             for _ in range(40):
@@ -311,7 +311,7 @@ def _lab(driver: MenuDriver) -> Iterator[str]:
     driver.choose("How it works")
     screen = driver.shown(LabScreen)
     for index, figure in enumerate(screen.figures):
-        screen.list._select(index)
+        screen.list.select(index)
         driver.frames(40)
         yield f"lab-{figure.name}"
     home(driver)

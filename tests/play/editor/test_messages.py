@@ -164,7 +164,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     assert room.draft.says == ""
     room.chord("y", pygame.KMOD_LCTRL)
     room.press("f5")
-    assert [each.text for each in room.shown(TryScreen)._trying.messages()] == ["run", "out", "on"]
+    assert [each.text for each in room.shown(TryScreen).play.playthrough.messages()] == ["run", "out", "on"]
 
 
 def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: Maker) -> None:
@@ -397,7 +397,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
         select(room, row)
         room.choose("Test")
         trying = room.shown(TryScreen)
-        places.append((trying.attempt.simulation.ninja.x, len(trying._trying.messages())))
+        places.append((trying.attempt.simulation.ninja.x, len(trying.play.playthrough.messages())))
         room.press("escape")
         assert room.top() is screen
     assert places == [(60.0, 3), (17 * 24 + 12.0, 3), (2 * 24 + 12.0, 3)]

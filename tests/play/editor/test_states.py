@@ -45,7 +45,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.mouse(*find_field(room))
     room.type("ninja")
     room.frames()
-    assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
+    assert (listed.find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
     room.press("escape")
     room.press("shift+z", "a", "r")
@@ -54,7 +54,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
     assert (session.tools.draws_objects, session.tools.tool) == (False, "brush")
     assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
-    assert (listed._find.text, len(listed.shown)) == ("", 2)
+    assert (listed.find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
