@@ -187,8 +187,8 @@ def _facts(level: NamedLevel, by_goal: Mapping[str, Certified], files: Mapping[s
 
 def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     """The findings of a level, and the locked doors that its run does not open."""
-    from ninja_game.editor.certify import passed_by
     from ninja_game.levels.lint import level_warnings
+    from ninja_game.runs.problems import passed_by
 
     unneeded = passed_by(level.level, [run]) if run else ()
     return [*level_warnings(level.level, level.says), *(finding.sentence for finding in unneeded)]

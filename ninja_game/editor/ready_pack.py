@@ -8,7 +8,7 @@ from pathlib import Path
 from time import monotonic
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.editor.certify import COMPILING, LOADING
+from ninja_game.editor.solver import COMPILING, LOADING
 from ninja_game.errors import LinkError, NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.tree import Tree

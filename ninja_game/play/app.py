@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pygame
 
+from ninja_game.editor.solver import Solver
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.bundled import data_folder
 from ninja_game.files.shown_text import shown_text
@@ -84,6 +85,7 @@ class App:
         #: Opens a run in the TAS editor, at a tick, with others to compare; None where there is none, as in a page
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
+        self.solver = Solver()  #: of all editors; the desk of packs shows what was stopped
         self.aside: list[Aside] = []
         self.running = True
         self.frame_ms = 0.0

@@ -45,7 +45,7 @@ class ListView(Widget):
         at = self._clicked
         stays = 0 <= at < min(len(self._rows), len(rows)) and self._rows[at] == rows[at]
         self._rows, self.count = rows, len(rows)
-        self._select(min(self.index, max(0, self.count - 1)))
+        self.select(min(self.index, max(0, self.count - 1)))
         self._clicked = at if stays else -1
 
     @property
@@ -56,7 +56,7 @@ class ListView(Widget):
     def lines(self) -> int:
         return -(-self.count // self.columns)
 
-    def _select(self, index: int) -> None:
+    def select(self, index: int) -> None:
         self.index = min(max(0, index), max(0, self.count - 1))
         self._clicked = -1
         line = self.index // self.columns
@@ -85,7 +85,7 @@ class ListView(Widget):
             if (action == "left" and place == 0) or (action == "right" and place == self.columns - 1):
                 return False
         if action in ("first", "last"):
-            self._select(0 if action == "first" else self.count - 1)
+            self.select(0 if action == "first" else self.count - 1)
             return True
         if action not in steps or not self.count:
             return False
@@ -95,7 +95,7 @@ class ListView(Widget):
         last_line = self.index // self.columns == self.lines - 1
         if goal < 0 or (goal >= self.count and (last_line or action == "right")):
             return False
-        self._select(goal)
+        self.select(goal)
         return True
 
     def row_area(self, index: int) -> Area:
@@ -118,7 +118,7 @@ class ListView(Widget):
         index = self._index_at(x, y)
         if index is not None:
             chosen_before = index == self._clicked or not self.opens
-            self._select(index)
+            self.select(index)
             self._clicked = index
             if chosen_before:
                 self.choose(index)

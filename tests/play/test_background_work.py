@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game import runtime
 from ninja_game.document import History
-from ninja_game.editor.certify import Certifier
+from ninja_game.editor.solver import Certifier, Solver
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import Replay
@@ -122,7 +122,7 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
 ) -> None:
     monkeypatch.setattr(editor_session, "level_problems", raising(why))
     monkeypatch.setattr("ninja_game.search.solve.solve", raising(why))
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     maker = Maker(tmp_path)
     try:
         maker.open("Editor")
@@ -184,8 +184,8 @@ def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monke
             report(Progress())
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
-    certifier = Certifier()
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
+    certifier = Certifier(Solver())
     with monkeypatch.context() as impatient:
         impatient.setattr(NewestJob, "finish", lambda *_: pytest.fail("it waits"))
         certifier.start(old)

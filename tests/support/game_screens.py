@@ -18,8 +18,9 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game import __version__
-from ninja_game.editor.certify import Certification, TestMap
 from ninja_game.editor.files import Source, draft_of
+from ninja_game.editor.playtests import TestMap
+from ninja_game.editor.solver import Certification
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.files.bundled import CHECKOUT, bundled_replays
 from ninja_game.files.user_folder import STAMPS
@@ -286,7 +287,7 @@ def _help(driver: MenuDriver) -> Iterator[str]:
     """Every page, when what it tells of has just happened."""
     screen = driver.opened("Help", HelpScreen)
     for index, topic in enumerate(screen.topics):
-        screen.list._select(index)
+        screen.list.select(index)
         demonstration = screen.demonstration
         if topic == "Gauss turrets":
             for _ in range(40):
@@ -310,7 +311,7 @@ def _lab(driver: MenuDriver) -> Iterator[str]:
     driver.choose("How it works")
     screen = driver.shown(LabScreen)
     for index, figure in enumerate(screen.figures):
-        screen.list._select(index)
+        screen.list.select(index)
         driver.frames(40)
         yield f"lab-{figure.name}"
     home(driver)

@@ -8,10 +8,10 @@ from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
-from ninja_game.editor.certify import lead_in, place_before, with_ninja_at
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
+from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import product
 from math import dist
@@ -12,6 +12,7 @@ from math import dist
 import pygame
 
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.message_rows import DETAILS, GRIP, TEXT, TIME, MessageRow, listed, messages_of, moved, sizing
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
@@ -28,9 +29,7 @@ from ninja_game.formats.messages import (
     WORDS,
     LevelMessage,
     arrow_targets,
-    header_form,
     parse_messages,
-    unknown_words,
 )
 from ninja_game.levels.episodes import Mood
 from ninja_game.levels.findings import Finding
@@ -77,121 +76,17 @@ _WHEN = {
 }
 """The name of each moment, and when it is."""
 
-_ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
-
-_DETAILS = {
-    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
-    "gold": ("any", f"{_ONE}; 3: after so many"),
-    "death": ("deaths", "How many deaths: a number from 1 to 99"),
-    "after": ("seconds", "How many seconds: a number from 1 to 99"),
-    "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3"),
-}
-"""What some moments may need besides: an example, and a hint."""
-
-
-def _listed(words: Sequence[str]) -> str:
-    return ", ".join(f"{{{word}}}" for word in words)
-
-
 _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
-    f"{_listed(KEYS)} become the key or button of whoever plays; {_listed(NUMBER_WORDS)} the number.",
-    f"{_listed(TARGETS)} have an arrow while their message is shown.",
+    f"{listed(KEYS)} become the key or button of whoever plays; {listed(NUMBER_WORDS)} the number.",
+    f"{listed(TARGETS)} have an arrow while their message is shown.",
     "In a level with messages the game gives no help of its own in play.",
 )
-
-DETAIL, TIME, _TEXT = 1, -2, -1
-"""Places of the fields in a row."""
 
 _HANDLE = 9.0
 """Side of the handles of the selected frame, px of the level."""
 
-GRIP = 9.0
-"""px of the level from the edge of a frame within which a drag sizes it."""
-
-_BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
-
-
-@dataclass(eq=False)
-class MessageRow:
-    """``when``: as of a LevelMessage. As typed: ``detail``, of _DETAILS, and ``time``, the seconds that it is shown."""
-
-    when: str = "start"
-    detail: str = ""
-    text: str = ""
-    time: str = ""
-
-    @property
-    def moment(self) -> str:
-        return f"{self.when} {' '.join(self.detail.split())}{' s' if self.when == 'after' else ''}".strip()
-
-    @property
-    def source(self) -> str:
-        seconds = self.time.strip().replace(",", ".")
-        shown_for = f" for {seconds} s" if seconds else ""
-        return f"{self.moment}{shown_for}: {header_form(self.text)}"
-
-    @property
-    def problem(self) -> tuple[int, str]:
-        """Which field of the row is wrong, DETAIL, TIME or _TEXT, and the problem in words; '' for none."""
-        moment = self.moment
-        if self.when in _DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
-            return DETAIL, _DETAILS[self.when][1]
-        if not _fits(replace(self, when="start", detail="", text="a text").source):
-            return TIME, _BAD_TIME
-        if not self.text.strip():
-            return _TEXT, "Type what is said, or remove the message"
-        if SEPARATOR in self.text:
-            return _TEXT, f"A message has no {SEPARATOR}"
-        return _TEXT, self.unknown and f"{self.unknown} is not one of {_listed(WORDS)}"
-
-    @property
-    def unknown(self) -> str:
-        """The first unknown word in braces, with the braces; '' for none."""
-        return next((f"{{{name}}}" for name in unknown_words(self.text)), "")
-
-
-def _fits(source: str) -> bool:
-    try:
-        return bool(parse_messages(source))
-    except LevelError:
-        return False
-
-
-def messages_of(says: str) -> list[MessageRow]:
-    return [MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "") for m in parse_messages(says)]
-
-
-def _detail(message: LevelMessage) -> str:
-    if message.cell == NO_CELL:
-        return str(message.number or "")
-    return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != FRAME_SIZE else "")
-
-
-def _edges_at(message: LevelMessage, x: float, y: float) -> tuple[int, int]:
-    """The edge or corner of a message's frame at a point, px: -1 left or above, 1 right or below, 0 neither."""
-    (wide, high), across, down = message.reach, x - message.middle[0], y - message.middle[1]
-    if abs(across) > wide + GRIP or abs(down) > high + GRIP:
-        return 0, 0
-    on_upright, on_level = abs(abs(across) - wide) <= GRIP, abs(abs(down) - high) <= GRIP
-    return on_upright * (1 if across > 0 else -1), on_level * (1 if down > 0 else -1)
-
-
-def _with_edge_at(frame: CellArea, edges: tuple[int, int], cell: Cell) -> CellArea:
-    """A frame with some of its edges at a cell; those opposite stay."""
-    left, top, columns, rows = frame
-    first, last = [left, top], [left + columns - 1, top + rows - 1]
-    for axis, edge in enumerate(edges):
-        if edge < 0:
-            first[axis] = cell[axis]
-        elif edge > 0:
-            last[axis] = cell[axis]
-    return area_between((first[0], first[1]), (last[0], last[1]))
-
-
-def _moved(frame: CellArea, begin: Cell, cell: Cell) -> CellArea:
-    return frame[0] + cell[0] - begin[0], frame[1] + cell[1] - begin[1], *frame[2:]
 
 
 @lru_cache(maxsize=4)
@@ -250,7 +145,7 @@ class MessagesScreen(MenuScreen):
         super().__init__(app)
         self.messages = messages_of(draft.says)
         self._draft = draft
-        self._selected = 0
+        self.number = 0  #: of the selected message
         self._stages: dict[tuple[object, ...], _Stage] = {}
         self._known: NewestJob[_Question, _Answer] = NewestJob(_answer)
         self._asked: _Question | None = None
@@ -260,7 +155,7 @@ class MessagesScreen(MenuScreen):
         self._before = self.source
         self._wanted = at
         self._here, self._put, self._test = here, put, test
-        self._row_widgets: list[list[Widget]] = []
+        self.rows: list[list[Widget]] = []  #: by message its button, then its fields
         self._refused = False
         self._drag_begin: Cell = NO_CELL
         self._dragged_frame: Callable[[Cell], CellArea] | None = None  #: the frame for the pointer's cell
@@ -273,21 +168,21 @@ class MessagesScreen(MenuScreen):
         super().enter()
         if (number := self._wanted) is not None:
             self._wanted = None
-            self._select(number)
+            self.select(number)
 
-    def _select(self, number: int, field: int = _TEXT) -> None:
+    def select(self, number: int, field: int = TEXT) -> None:
         """Show the row of a message, with the focus on a field of it."""
-        self._selected = number
+        self.number = number
         self.enter()
-        self.focus, self.redraw = self._row_widgets[number][field], True
+        self.focus, self.redraw = self.rows[number][field], True
 
     def build(self) -> Sequence[Widget]:
-        self._row_widgets = [self._row(number) for number in range(len(self.messages))]
-        rows = [widget for row in self._row_widgets[self._first : self._first + SHOWN] for widget in row]
+        self.rows = [self._row(number) for number in range(len(self.messages))]
+        rows = [widget for row in self.rows[self.first : self.first + SHOWN] for widget in row]
         y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
         if len(self.messages) > SHOWN:
-            text, others = f"Page {self._first // SHOWN + 1} of 2", (self._first + SHOWN) % MAX_MESSAGES
-            rows.append(Button((342, y, 98, 28), text, partial(self._select, others), hint="The others: the wheel"))
+            text, others = f"Page {self.first // SHOWN + 1} of 2", (self.first + SHOWN) % MAX_MESSAGES
+            rows.append(Button((342, y, 98, 28), text, partial(self.select, others), hint="The others: the wheel"))
         most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
         up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
         buttons: list[tuple[float, float, str, Action | None, str]] = [
@@ -303,9 +198,9 @@ class MessagesScreen(MenuScreen):
         return [*rows, *(Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons)]
 
     @property
-    def _first(self) -> int:
+    def first(self) -> int:
         """The number of the first message that is shown."""
-        return self._selected // SHOWN * SHOWN
+        return self.number // SHOWN * SHOWN
 
     def _row(self, number: int) -> list[Widget]:
         message, y = self.messages[number], _TOP + _ROW * (number % SHOWN)
@@ -317,7 +212,7 @@ class MessagesScreen(MenuScreen):
 
         def put(typed: str) -> None:
             message.text = typed
-            known = f"Words: {_listed(WORDS)}" if "{" in typed else new_line
+            known = f"Words: {listed(WORDS)}" if "{" in typed else new_line
             text.hint = message.problem[1] if message.unknown else known
 
         put(message.text)
@@ -327,8 +222,8 @@ class MessagesScreen(MenuScreen):
             (36, y, 118, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(change, message.when)
         )
         details: list[Widget] = []
-        if message.when in _DETAILS:
-            (prompt, hint), detail = _DETAILS[message.when], partial(setattr, message, "detail")
+        if message.when in DETAILS:
+            (prompt, hint), detail = DETAILS[message.when], partial(setattr, message, "detail")
             details.append(TextEntry((157, y, 86, 28), prompt, message.detail, detail, longest=11, hint=hint))
         usual = shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND
         put_time = partial(setattr, message, "time")
@@ -348,7 +243,7 @@ class MessagesScreen(MenuScreen):
 
     @property
     def selected(self) -> MessageRow | None:
-        return self.messages[self._selected] if self._selected < len(self.messages) else None
+        return self.messages[self.number] if self.number < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         """A click in the picture selects what lies there, or puts the selected message there; a drag frames it.
@@ -357,8 +252,8 @@ class MessagesScreen(MenuScreen):
         """
         if event.type == pygame.MOUSEWHEEL:
             number, beside = SHOWN if event.y < 0 else 0, self._level_point(pygame.mouse.get_pos()) is None
-            if beside and number < len(self.messages) and number != self._first:
-                self._select(number)
+            if beside and number < len(self.messages) and number != self.first:
+                self.select(number)
             return
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
@@ -388,16 +283,16 @@ class MessagesScreen(MenuScreen):
         named = "{},{}".format(*cell_of(*thing)) if thing and dist(thing, at) < near else ""
         eyes = [(dist(eye, at), number) for number, row in enumerate(self.messages) if (eye := self._eye(row))]
         away, number = min(eyes, default=(near, 0))
-        edges = _edges_at(parsed, *at) if parsed and away > GRIP else (0, 0)
+        sized = sizing(parsed, *at) if parsed and away > GRIP else None
         if selected and named and selected.detail != named:
             selected.detail = named
             self.enter()
-        elif parsed and any(edges):
-            self._dragged_frame = partial(_with_edge_at, parsed.frame, edges)
-        elif away < near and number != self._selected:
-            self._select(number)
+        elif sized:
+            self._dragged_frame = sized
+        elif away < near and number != self.number:
+            self.select(number)
         elif parsed and all(abs(a - b) < half for a, b, half in zip(at, parsed.middle, parsed.reach, strict=True)):
-            self._dragged_frame = partial(_moved, parsed.frame, cell)
+            self._dragged_frame = partial(moved, parsed.frame, cell)
         elif selected and selected.when == "at":
             if is_inside(cell_of(*at)):
                 self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else FRAME_SIZE).frame)
@@ -410,14 +305,14 @@ class MessagesScreen(MenuScreen):
         left, top, columns, rows = frame
         cell, size = (left + columns // 2, top + rows // 2), (min(columns, COLUMNS), min(rows, ROWS))
         if self.selected and is_inside(cell):
-            self.selected.detail = _detail(LevelMessage("at", "", cell=cell, size=size))
+            self.selected.put_at(cell, size)
             self.enter()
 
     def _add(self) -> None:
         def choose(when: str) -> None:
             self.messages.append(MessageRow())
             self._change_moment(self.messages[-1], when)
-            self._select(len(self.messages) - 1)
+            self.select(len(self.messages) - 1)
 
         self._ask_moment(choose, "start")
 
@@ -425,25 +320,25 @@ class MessagesScreen(MenuScreen):
         """Show the messages with one at that place among others, selected; a button keeps the focus."""
         number = min(max(0, number), len(others))
         behind = self.widgets.index(self.focus) - len(self.widgets) if self.focus else 0
-        in_row = any(self.focus in row for row in self._row_widgets)
+        in_row = any(self.focus in row for row in self.rows)
         self.messages = [*others[:number], message, *others[number:]]
-        self._select(number)
+        self.select(number)
         self.focus = self.focus if in_row else self.widgets[behind]
 
     def _copy(self) -> None:
         if self.selected and len(self.messages) < MAX_MESSAGES:
-            self._put_at(self._selected + 1, replace(self.selected), self.messages)
+            self._put_at(self.number + 1, replace(self.selected), self.messages)
 
     def _reorder(self, by: int) -> None:
         """Move the selected message by so many places, with Shift to the end."""
         if selected := self.selected:
             far = MAX_MESSAGES if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
             others = [other for other in self.messages if other is not selected]
-            self._put_at(self._selected + by * far, selected, others)
+            self._put_at(self.number + by * far, selected, others)
 
     def _remove(self) -> None:
-        del self.messages[self._selected]
-        self._selected = min(self._selected, max(0, len(self.messages) - 1))
+        del self.messages[self.number]
+        self.number = min(self.number, max(0, len(self.messages) - 1))
         self.enter()
 
     def _is_sound(self) -> bool:
@@ -452,8 +347,8 @@ class MessagesScreen(MenuScreen):
             field, problem = message.problem
             if problem:
                 self._refused = True
-                self._select(number, field)
-                if field != _TEXT and isinstance(self.focus, TextEntry):
+                self.select(number, field)
+                if field != TEXT and isinstance(self.focus, TextEntry):
                     self.focus.edited.select_all()
                 return False
         return True
@@ -465,7 +360,7 @@ class MessagesScreen(MenuScreen):
 
     def _try(self) -> None:
         if self._is_sound():
-            self._test(self._selected, self._eye(self.selected) if self.selected else None, self.source)
+            self._test(self.number, self._eye(self.selected) if self.selected else None, self.source)
 
     def close(self) -> None:
         """Leave; ask first whether changes are kept."""
@@ -488,7 +383,7 @@ class MessagesScreen(MenuScreen):
         names = {pygame.TEXTINPUT: "text", pygame.KEYDOWN: "unicode"}
         typed = getattr(raw, names.get(raw.type, ""), "")
         if typed.strip() and typed.isprintable() and not isinstance(self.focus, TextEntry):
-            self.focus = next((row[-1] for row in self._row_widgets if self.focus in row), self.focus)
+            self.focus = next((row[-1] for row in self.rows if self.focus in row), self.focus)
         return super().capture(event)
 
     def act(self, action: str, *, held: bool = False) -> None:
@@ -506,9 +401,9 @@ class MessagesScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.theme
-        self._selected = next((k for k, row in enumerate(self._row_widgets) if self.focus in row), self._selected)
+        self.number = next((k for k, row in enumerate(self.rows) if self.focus in row), self.number)
         self._ask_about_run()
-        for number in range(self._first, min(self._first + SHOWN, len(self.messages))):
+        for number in range(self.first, min(self.first + SHOWN, len(self.messages))):
             self._draw_notes(surface, number)
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
         theme.text(surface, count, 764, 24, size=11, colour=theme.palette.on_tile, align="right")
@@ -527,7 +422,7 @@ class MessagesScreen(MenuScreen):
         wrong = self._wrong(message)
         text, colour = (wrong, palette.bad) if wrong else (self._turn_of(message), palette.faint)
         theme.text(surface, text, 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56)
-        if number == self._selected:
+        if number == self.number:
             theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
 
     def _wrong(self, message: MessageRow) -> str:
@@ -664,17 +559,13 @@ class MessagesScreen(MenuScreen):
 
     def _things_of(self, message: MessageRow | None) -> list[Point]:
         """The objects that a message can be about, px: the gold, or the switches of its moment."""
-        return things_of(self._draft, message.when) if message and message.when in _DETAILS else []
+        return things_of(self._draft, message.when) if message and message.when in DETAILS else []
 
     def _parsed(self, message: MessageRow | None) -> LevelMessage | None:
         """A message near a place as the level will have it; None for others and without a valid place."""
-        if message and message.when == "at" and message.problem[0] != DETAIL:
-            return parse_messages(f"{message.moment}: a text")[0]
-        return None
+        return message.parsed if message and message.when == "at" else None
 
     def _eye(self, message: MessageRow) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""
-        if parsed := self._parsed(message):
-            return parsed.place
-        timeless = message.when == "start" or message.problem[0] == DETAIL
-        return None if timeless else said_at(self._draft, parse_messages(f"{message.moment}: a text")[0])
+        parsed = message.parsed
+        return parsed and (parsed.place or said_at(self._draft, parsed))

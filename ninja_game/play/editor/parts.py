@@ -612,8 +612,8 @@ class ObjectList(EditorPart):
         self._state: tuple[object, ...] = ()
         hint = "A click selects it, with Shift too; what comes first is made first, and moves first"
         self.list = ListView((x + 2, y + 26, w - 6, h - 50), 15, self._draw_row, self._choose, empty="None", hint=hint)
-        self._find = _Find((x + 4, y + 3, w - 84, 18), "Find", "", lambda _: None)
-        self._find.hint = "Objects whose lines have all these words, such as: drone left"
+        self.find = _Find((x + 4, y + 3, w - 84, 18), "Find", "", lambda _: None)
+        self.find.hint = "Objects whose lines have all these words, such as: drone left"
         moves = [
             Button((x + 2 + 52 * k, y + h - 22, 49, 19), text, partial(self._move, by), size=9, hint=hint)
             for k, (text, by, hint) in enumerate(_MOVES)
@@ -622,7 +622,7 @@ class ObjectList(EditorPart):
         every.hint = "Select all that are shown; a property that all of them have is changed at once, below"
         # Where the palette has its button for the list: a second click there leads back.
         palette = ToolButton((x + w - 54, y + h - 21, 50, 18), "list", "Palette", run, view)
-        self.widgets = [self._find, palette, self.list, *moves, every]
+        self.widgets = [self.find, palette, self.list, *moves, every]
 
     def _move(self, by: int) -> None:
         self.session.tools.reorder(by * len(self.session.draft.objects) if _shift() else by)
@@ -631,12 +631,12 @@ class ObjectList(EditorPart):
         tools = self.session.tools
         if tools.history is not self._history:
             self._history = tools.history
-            self._find.show("")
-        state = self._find.text, tools.draft.objects, tools.selection
+            self.find.show("")
+        state = self.find.text, tools.draft.objects, tools.selection
         if len(state) == len(self._state) and all(a is b for a, b in zip(state, self._state, strict=True)):
             return
         self._state = state
-        words = self._find.text.lower().split()
+        words = self.find.text.lower().split()
         texts = map(object_text, tools.draft.objects)
         self.shown = [number for number, text in enumerate(texts) if all(word in text for word in words)]
         chosen = next((place for place, number in enumerate(self.shown) if number in tools.selection.numbers), None)

@@ -8,8 +8,11 @@ from functools import partial
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor import certify, files
+from ninja_game.editor import files
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.playtests import PathPoints, TestMap, Try, drone_round, map_of, round_of, route_of
+from ninja_game.editor.reach import STARTS, Ask, Reach, find_reach
+from ninja_game.editor.solver import Certification, Certifier, search_of
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.reading import NO_FILE, file_stamp
@@ -69,7 +72,7 @@ class EditorSession:
 
     def __init__(self, app: App, source: files.Source | None = None) -> None:
         self.app = app
-        self.certifier = certify.Certifier()
+        self.certifier = Certifier(app.solver)
         self.tools = EditorTools(files.new_source().draft)
         self.tools.slopes = app.settings.slopes
         self._begin(source or files.new_source(app.settings.name, room=True))
@@ -90,20 +93,18 @@ class EditorSession:
         self._objects = self.draft.objects
         # Running searches are about another level.
         self._checks = NewestJob(_examine)
-        self._reaches = NewestJob(certify.find_reach)
-        self._maps = NewestJob(certify.map_of)
-        self._known_runs: NewestJob[tuple[Level, Replay], certify.Certification] = NewestJob(
-            lambda known: certify.search_of(*known)
-        )
-        self.rounds = NewestJob(certify.round_of)
+        self._reaches = NewestJob(find_reach)
+        self._maps = NewestJob(map_of)
+        self._known_runs: NewestJob[tuple[Level, Replay], Certification] = NewestJob(lambda known: search_of(*known))
+        self.rounds = NewestJob(round_of)
         self._drone: tuple[Level, ObjectSpec | None] | None = None
-        self.start = "off"  #: the ninja's state at the pointer for the search of what it can reach, of certify.STARTS
-        self._start_asked: certify.Ask | None = None
-        self._tries: dict[Level, tuple[certify.Try, ...]] = {}
+        self.start = "off"  #: the ninja's state at the pointer for the search of what it can reach, of STARTS
+        self._start_asked: Ask | None = None
+        self._tries: dict[Level, tuple[Try, ...]] = {}
         self._tried_level: Level | None = None
-        self.tries: tuple[certify.Try, ...] = ()  #: all tests of the level as it is
-        self.last_try: certify.PathPoints = ()  #: route of the last test
-        self.last_death: certify.PathPoints = ()  #: where the last of the tries died
+        self.tries: tuple[Try, ...] = ()  #: all tests of the level as it is
+        self.last_try: PathPoints = ()  #: route of the last test
+        self.last_death: PathPoints = ()  #: where the last of the tries died
         self._file_stamp, self._looked_at = NO_FILE, 0.0
         self._certified: tuple[object, ...] = ()
         self._resting = self.draft.level, 0.0  #: the level, and when it became that, s
@@ -172,22 +173,22 @@ class EditorSession:
         return self._checks.result[0] if self._checks.result else None
 
     @property
-    def reach(self) -> certify.Reach | None:
+    def reach(self) -> Reach | None:
         """The reach of a ninja at the pointer, or at the pointer's last place."""
         return self._reaches.result if self.start != "off" else None
 
     def next_start(self) -> None:
-        self.start = next_option(list(certify.STARTS), self.start)
+        self.start = next_option(list(STARTS), self.start)
         self._start_asked = None
 
     def _follow_pointer(self) -> None:
         """Search the reach from the pointer; the earlier result stays until the new one is there."""
-        speed = certify.STARTS[self.start]
+        speed = STARTS[self.start]
         if self._reaches.problem:
             self.app.notify(self._reaches.problem)
             self.start, self._reaches.problem = "off", ""
         elif speed is not None:
-            ask, before = certify.Ask(self.draft, self.tools.pointer, speed), self._start_asked
+            ask, before = Ask(self.draft, self.tools.pointer, speed), self._start_asked
             if before is None or before.draft is not ask.draft or before[1:] != ask[1:]:
                 self._start_asked = ask
                 self._reaches.ask(ask)
@@ -201,10 +202,10 @@ class EditorSession:
         if now != self._drone:
             self._drone, self.rounds.result = now, None
             if now[1]:
-                self.rounds.ask(certify.drone_round(self.draft, now[1]))
+                self.rounds.ask(drone_round(self.draft, now[1]))
 
     @property
-    def drone_round(self) -> certify.PathPoints:
+    def drone_round(self) -> PathPoints:
         return self.rounds.result or () if self._drone and self._drone[1] else ()
 
     def update(self) -> None:
@@ -271,7 +272,7 @@ class EditorSession:
         return certifier.waited if certifier.is_compiling else f"Stop {certifier.waited}"[:9].strip()
 
     @property
-    def test_map(self) -> certify.TestMap | None:
+    def test_map(self) -> TestMap | None:
         return self._maps.result if self.tries else None
 
     def changed_source(self) -> files.Source | None:
@@ -313,7 +314,7 @@ class EditorSession:
             self._certified = known
             self._keep(path, search)
 
-    def _keep(self, path: Path, search: certify.Certification, *, name: str = "") -> None:
+    def _keep(self, path: Path, search: Certification, *, name: str = "") -> None:
         """Write the runs of a search beside a file with its level. ``name``: of a level left by now, for a notice."""
         from ninja_game.search.certificate import update_certificates
 
@@ -335,7 +336,7 @@ class EditorSession:
                     end = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level"
                 self.app.notify(f"{name}: {end}")
 
-    def _file_now(self, path: Path, search: certify.Certification) -> NamedLevel | None:
+    def _file_now(self, path: Path, search: Certification) -> NamedLevel | None:
         """The level of a search in its file, or in another of the player's files, as in a pack; None if it is gone."""
         with suppress(NinjaGameError, OSError):
             if (named := load_levels(path)[0]).level == search.level:
@@ -401,15 +402,15 @@ class EditorSession:
             return
         tries = self._tries.get(self.draft.level, ())
         goes_on = tries and not tries[-1].over and tries[-1].level is level and inputs.startswith(tries[-1].inputs)
-        self._tries[self.draft.level] = (*(tries[:-1] if goes_on else tries), certify.Try(level, inputs, over))
-        self.last_try = certify.route_of(level, inputs)
+        self._tries[self.draft.level] = (*(tries[:-1] if goes_on else tries), Try(level, inputs, over))
+        self.last_try = route_of(level, inputs)
         self._show_tries()
 
     def _show_tries(self) -> None:
         """Show only tests of the present version of the level: others may have met objects that are gone."""
         self._tried_level = self.draft.level
         self.tries = self._tries.get(self.draft.level, ())
-        self.last_death = certify.map_of(self.tries[-1:]).deaths
+        self.last_death = map_of(self.tries[-1:]).deaths
         if self.tries:
             self._maps.ask(self.tries)
 
@@ -419,7 +420,7 @@ class EditorSession:
         if helped or level != self.draft.level:
             return False
         replay = attempt.replay(self.name, self.app.settings.name)
-        self.certifier.adopt(certify.search_of(level, replace(replay, made=Provenance(played=True))))
+        self.certifier.adopt(search_of(level, replace(replay, made=Provenance(played=True))))
         return True
 
     def keep_certificate(self) -> None:

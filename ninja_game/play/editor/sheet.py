@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import PathPoints, TestMap
 from ninja_game.editor.draft import Draft, changed_cells
+from ninja_game.editor.playtests import PathPoints, TestMap
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, has_switch, object_type_name, points
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.levels.findings import Finding

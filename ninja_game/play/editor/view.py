@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.certify import SQUARE, PathPoints, Reach, TestMap
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
+from ninja_game.editor.playtests import PathPoints, TestMap
+from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, object_type_name, points
 from ninja_game.editor.stamp import Stamp, area_around, area_between, nearest_part
 from ninja_game.editor.tools import PICK_REACH, EditorTools

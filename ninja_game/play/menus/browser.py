@@ -97,7 +97,7 @@ class Browser(ThumbnailScreen):
         self.redraw = True
 
     def choosers(self) -> list[Widget]:
-        sort = Choice((244, 66, 118, 32), "", _SORT_ORDERS, lambda: self.sort, self._sort, hint="Sort the list")
+        sort = Choice((244, 66, 118, 32), "", _SORT_ORDERS, lambda: self.sort, self.sort_by, hint="Sort the list")
         problems = problems_button(self.app, (150, 546, 270, 18), lambda: self.problems)
         return [self.list, self.entry_field, sort, *problems]
 
@@ -139,7 +139,7 @@ class Browser(ThumbnailScreen):
             self.message = reason(error)
         self.redraw = True
 
-    def _sort(self, value: object) -> None:
+    def sort_by(self, value: object) -> None:
         self.sort = value
         self._arrange()
 

@@ -78,7 +78,7 @@ class Cells(ListView):
         before, first = self.index, self.first
         used = super().nudge(action)
         if used and self.numbers[self.index] < 0:
-            self._select(before)
+            self.select(before)
             self.first = first
             return False
         return used

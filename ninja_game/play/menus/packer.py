@@ -9,7 +9,6 @@ from functools import cached_property
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.pack_steps import Steps
 from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of
 from ninja_game.errors import NinjaGameError
@@ -105,7 +104,8 @@ class Packer(Aside):
         self._stopped = True
         with suppress(NinjaGameError, OSError):
             pack = Pack(self.path)
-            SOLVER.stopped.update(e.level for file, e in pack.levels.items() if not pack.certificate(file, "exit"))
+            levels = pack.levels.items()
+            self.app.solver.stopped.update(e.level for file, e in levels if not pack.certificate(file, "exit"))
 
     def _say(self, text: str, share: float | None) -> None:
         if self._stopped:
@@ -271,7 +271,7 @@ class PackStatus:
             else:
                 run = self.catalogue.author_run(level)
                 vain = (level.named.level, "exit") in self.packer.obstacles
-                stopped = level.named.level in SOLVER.stopped and not self.packer.is_busy
+                stopped = level.named.level in self.packer.app.solver.stopped and not self.packer.is_busy
                 untried = "stopped" if stopped else "changed" if has_certificate else "no run yet"
                 state = "certified" if run else NOT_FOUND if vain else untried
             self._states[id(level)] = state

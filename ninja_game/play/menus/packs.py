@@ -41,6 +41,7 @@ class _ShownState(NamedTuple):
 
     is_busy: bool = False
     obstacles: int = 0
+    zipped: Path | None = None
     text: str = ""
     notice: str = ""
 
@@ -158,8 +159,10 @@ class PackScreen(PackDesk):
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
         packer, before = self.packer, self._shown
-        self._shown = shown = _ShownState(packer.is_busy, len(packer.obstacles), packer.text, self.app.notice)
-        if (shown.is_busy, shown.obstacles) != (before.is_busy, before.obstacles):
+        self._shown = shown = _ShownState(
+            packer.is_busy, len(packer.obstacles), self.zipped, packer.text, self.app.notice
+        )
+        if shown[:3] != before[:3]:
             self.enter()
         elif shown != before:
             # A new notice may be about a certificate that a search of the editor has found.

@@ -22,7 +22,6 @@ def driver(tmp_path: Path) -> Iterator[Maker]:
             if isinstance(screen, EditorScreen):
                 screen.session.certifier.stop()
                 screen.session.close()
-                screen.session.certifier.solver.left.clear()
         made.close()
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import replace
+from functools import partial
 from math import ceil, dist, inf
 from pathlib import Path
 from threading import Event
@@ -17,18 +19,10 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.brush import object_of_type, placed, with_switch
-from ninja_game.editor.certify import (
-    LANDED_TICK,
-    Ask,
-    Certification,
-    Certifier,
-    Solver,
-    find_reach,
-    passed_by,
-    search_of,
-)
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import open_source
+from ninja_game.editor.reach import LANDED_TICK, Ask, find_reach
+from ninja_game.editor.solver import Certification, Certifier, Solver, search_of
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -38,6 +32,7 @@ from ninja_game.play.editor.session import _examine
 from ninja_game.play.editor.sheet import _rects
 from ninja_game.play.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
+from ninja_game.runs.problems import passed_by
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
 from ninja_game.sim.grid import cell_of, is_inside
@@ -49,13 +44,15 @@ from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
 
+RIGHT = bytes([2]) * 100
+
 
 def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     ready, at_once = Event(), list[bool]()
     request.addfinalizer(ready.set)
-    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+    run = verified_run(ROOM.level, with_press_bits(RIGHT))
 
     def solve(
         task: Task, *, report: Callable[[Progress], object], on_better: Callable[[Replay], object], stop: Event
@@ -69,7 +66,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
         return run
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     told: list[str] = []
     monkeypatch.setattr(room.app, "notify", lambda text, **_: told.append(text))
     session, levels = room.editor.session, tmp_path / "levels"
@@ -108,7 +105,7 @@ def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
         ready.wait(LONGEST)
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     certifier = room.editor.session.certifier
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
@@ -127,7 +124,7 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(
     session = room.editor.session
     monkeypatch.setattr("ninja_game.play.editor.session.REST", inf)
     assert session.certify_text == "Certify"
-    run = verified_run(ROOM.level, with_press_bits(bytes([2]) * 100))
+    run = verified_run(ROOM.level, with_press_bits(RIGHT))
     for progress, best, said in (
         (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
@@ -149,7 +146,7 @@ def test_while_the_solver_is_compiled_its_seconds_are_shown_and_nothing_stops(
     room: Maker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session = room.editor.session
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr(session.certifier.solver.job, "ask", lambda _: None)
     session.certifier.certification = Certification(room.draft.level, began=monotonic() - 300)
     for compiles, says in ((False, "Loading the solver"), (True, "Compiling the solver, .* a minute or more")):
@@ -168,7 +165,7 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
     room: Maker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session, asked, clock = room.editor.session, list[Certification](), [1000.0]
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.play.editor.session.monotonic", lambda: clock[0])
     monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
     search = session.certifier.certification = Certification(
@@ -192,10 +189,10 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
 
 
 def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    certifier, tasks = Certifier(), list[Task]()
-    monkeypatch.setattr(certifier, "solver", solver := Solver())
+    tasks = list[Task]()
+    certifier = Certifier(solver := Solver())
     monkeypatch.setattr(solver.job, "ask", solver._work)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.search.solve.solve", lambda task, **_: tasks.append(task))
     level = load_levels(root / "levels" / "00-0-first-steps.txt")[0].level
     run, gold = (
@@ -211,7 +208,7 @@ def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkey
 
 def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     session, asked = room.editor.session, list[Certification]()
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr(session.certifier.solver.job, "ask", asked.append)
     monkeypatch.setattr(session.certifier.solver, "at_work", Certification(ROOM.level))
     room.press("f7")
@@ -227,19 +224,62 @@ def test_a_search_that_waits_is_of_the_level_as_it_is_by_then(room: Maker, monke
     assert session.certify_text == "Certify", "what was stopped stays so"
 
 
+class OtherFirst(AbstractContextManager[None]):
+    """A lock that another thread has held just before: its change comes first."""
+
+    def __init__(self, change: Callable[[], object]) -> None:
+        self.change = change
+
+    def __enter__(self) -> None:
+        self.change()
+
+    def __exit__(self, *_: object) -> None:
+        """Nothing is to be released."""
+
+
+def test_a_change_by_the_other_thread_just_before_counts() -> None:
+    slow, fast = (verified_run(ROOM.level, with_press_bits(keys)) for keys in (bytes(9) + RIGHT, RIGHT))
+    assert fast.end_tick < slow.end_tick
+    search = Certification(ROOM.level)
+    search.lock = OtherFirst(partial(setattr, search, "run", fast))
+    search.take(slow)
+    assert search.run is fast, "a slower run does not replace it"
+    for end in ("Stopped", "Done"):
+        search = Certification(ROOM.level)
+        search.lock = OtherFirst(partial(setattr, search, "end", end))
+        search.finish("MemoryError", failed=True)
+        assert (search.end, search.failed) == (end, False), "what is over stays so"
+
+
+def test_what_is_stopped_while_it_fails_stays_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    certifier = Certifier(solver := Solver())
+    monkeypatch.setattr(solver.job, "ask", lambda _: None)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
+
+    def solve(*_: object, **__: object) -> None:
+        certifier.stop()
+        raise MemoryError
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    certifier.start(ROOM.level)
+    with pytest.raises(MemoryError):
+        solver._work(certifier.certification)
+    assert (certifier.text, certifier.certification.failed) == ("Stopped", False)
+
+
 def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
     switches = (130.0, 540.0), (300.0, 300.0)
     door = placed(object_of_type("locked door"), 324.0, 540.0, "cell")
     level = ROOM.with_objects((*ROOM.objects, *(with_switch(door, *at, "px") for at in switches))).level
-    run = verified_run(level, with_press_bits(bytes([2]) * 100))
+    run = verified_run(level, with_press_bits(RIGHT))
     (found,) = search_of(level, run).obstacles
     assert (found.code, found.records) == ("unneeded-door", (3,)), "the other switch lies on its way"
     assert found.sentence.startswith("locked door at 13,22"), "and it is named"
     assert passed_by(ROOM.level, [run]) == ()
-    with patch("ninja_game.editor.certify.Simulation") as played:
+    with patch("ninja_game.runs.problems.Simulation") as played:
         search_of(level, run).take(run)
     assert not played.called, "the window takes up a run that is known by now, and waits for no play"
-    with patch("ninja_game.editor.certify.Simulation") as played:
+    with patch("ninja_game.runs.problems.Simulation") as played:
         passed_by(level, [replace(run, body="box")])
     played.assert_called_once_with(level, body="box")
 

@@ -15,10 +15,12 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
 from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
-from ninja_game.editor.certify import LANDED_TICK, SQUARE, STARTS, Certification, Reach, with_ninja_at
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.motion import SYMMETRIES
+from ninja_game.editor.playtests import with_ninja_at
+from ninja_game.editor.reach import LANDED_TICK, SQUARE, STARTS, Reach
+from ninja_game.editor.solver import Certification
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, with_stamp
 from ninja_game.formats.ascii.places import place_text
@@ -1156,7 +1158,7 @@ def test_f7_after_a_change_looks_at_the_level_as_it_is(room: Maker) -> None:
     with (
         patch.object(type(certifier.solver.job), "is_idle", False),
         patch.object(certifier.solver.job, "ask", asked.append),
-        patch("ninja_game.editor.certify.compiled_available", lambda: True),
+        patch("ninja_game.editor.solver.compiled_available", lambda: True),
     ):
         room.press("f7")
         asked[0].progress = Progress()

@@ -11,8 +11,8 @@ import pygame
 import pytest
 
 from ninja_game.editor.brush import object_of_type
-from ninja_game.editor.certify import Certification, search_of
 from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.solver import Certification, search_of
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
 from ninja_game.play.editor.commands import IN_MORE, TryScreen
@@ -45,7 +45,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.mouse(*find_field(room))
     room.type("ninja")
     room.frames()
-    assert (listed._find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
+    assert (listed.find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
     room.press("escape")
     room.press("shift+z", "a", "r")
@@ -54,7 +54,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
     assert (session.tools.draws_objects, session.tools.tool) == (False, "brush")
     assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
-    assert (listed._find.text, len(listed.shown)) == ("", 2)
+    assert (listed.find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
@@ -116,7 +116,7 @@ def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
         players.append(current_thread())
         return search_of(*of)
 
-    monkeypatch.setattr("ninja_game.editor.certify.search_of", played)
+    monkeypatch.setattr("ninja_game.play.editor.session.search_of", played)
     shutil.copy(PACK / f"{name}.txt", levels / "mine.txt")
     room.editor.commands.open_file(levels / "mine.txt")
     room.wait(lambda: session.certifier.text, "certificate")

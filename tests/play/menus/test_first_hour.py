@@ -435,7 +435,7 @@ def test_death_by_a_fall_says_what_helps_until_the_level_is_passed(driver: MenuD
 def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) -> None:
     browser = driver.opened("Levels", Browser)
     place = next(k for k, each in enumerate(browser.shown) if each.episode == "01-0")
-    browser.list._select(place)
+    browser.list.select(place)
     assert not browser.play_button.enabled
     assert not browser.practice.enabled
     assert browser.practice.hint == "Finish 5 more levels of episode 1.1 first"

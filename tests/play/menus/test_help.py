@@ -44,7 +44,7 @@ def test_a_wrong_room_is_named() -> None:
 def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
     screen = driver.opened("Help", HelpScreen)
     for index, page in enumerate(PAGES):
-        screen.list._select(index)
+        screen.list.select(index)
         assert screen.demonstration is not None
         first = screen.demonstration.simulation
         driver.frames(3)
@@ -55,7 +55,7 @@ def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
             screen.update(25)
         assert screen.demonstration.simulation is not first
         assert last == len(page.inputs) + 60, "it stands still for a second and a half"
-    screen.list._select(len(PAGES))
+    screen.list.select(len(PAGES))
     driver.frames(2)
     assert screen.demonstration is None
 

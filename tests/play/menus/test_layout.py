@@ -86,7 +86,7 @@ def test_grid_with_gaps_never_selects_a_gap() -> None:
 def test_keys_select_in_a_list_or_move_the_focus_on(key: str, index: int, goal: int | None) -> None:
     rows = ListView((0, 0, 100, 60), 20, lambda *_: None, lambda _: None)
     rows.fill(range(10))
-    rows._select(index)
+    rows.select(index)
     assert (rows.nudge(key), rows.index) == (goal is not None, index if goal is None else goal)
 
 

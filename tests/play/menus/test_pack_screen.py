@@ -16,7 +16,6 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs, ready_pack
-from ninja_game.editor.certify import SOLVER
 from ninja_game.editor.files import ascii_text
 from ninja_game.editor.pack_steps import write_file
 from ninja_game.editor.ready_pack import Obstacles, ReadyPack, Say
@@ -55,8 +54,7 @@ from tests.support.waiting import LONGEST
 
 
 @pytest.fixture(name="path")
-def pack_of_the_player(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(SOLVER, "stopped", set())
+def pack_of_the_player(driver: MenuDriver) -> Path:
     path = driver.player.folder / "levels" / "laundry"
     shutil.copytree(PACK, path, ignore=shutil.ignore_patterns("gallery", "README.md"))
     index = path / "pack.toml"
@@ -544,12 +542,15 @@ def test_levels_of_days_are_no_pack_of_ones_own(driver: MenuDriver, path: Path) 
     assert [pack.path for pack in opened(driver).own_packs] == [path]
 
 
+def with_an_open_problem(path: Path) -> ReadyPack:
+    pack, left = Pack(path), [pack_finding("no-author", "pack.toml")]
+    return ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["No par times"])
+
+
 def test_a_pack_is_made_ready_in_the_background(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pack = Pack(path)
-    left = [pack_finding("no-author", "pack.toml")]
-    ready = ReadyPack(pack, left, pack.files.zipped(), pack.files.link(), ["No par times"])
+    ready = with_an_open_problem(path)
     begun = []
     go_on = Event()
 
@@ -588,7 +589,26 @@ def test_a_pack_is_made_ready_in_the_background(
     notice = driver.app._draw_notice(driver.app.theme)
     assert 0 <= notice.top < notice.bottom <= 96, "the state of the pack, and hints, are read meanwhile"
     assert screen.packer.text == f"{saved}, with 1 open problem (no author); {rest}; No par times"
+
+
+@pytest.fixture(name="zipped")
+def desk_with_a_zip(driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch) -> PackScreen:
+    """The desk after the player's pack was zipped in spite of a problem."""
+    ready = with_an_open_problem(path)
+    monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", lambda *_, **__: ready)
+    screen = opened(driver)
+    driver.choose("Make ready")
+    driver.wait(lambda: driver.top() is not screen)
+    driver.frames(ms=500)
+    driver.choose("Zip and link all the same")
+    driver.frames(2)
     driver.wait(lambda: screen.status.present, "the problems are known")
+    return screen
+
+
+def test_the_page_of_problems_and_the_desk_go_on_from_a_zip(driver: MenuDriver, zipped: PackScreen) -> None:
+    screen = zipped
+    assert driver.app.notice
     driver.choose("Problems")
     assert driver.app.notice == "", "what is said there goes with the screen"
     assert [problem.step for problem in problem_page(driver).problems] == ["Make ready"]
@@ -597,20 +617,28 @@ def test_a_pack_is_made_ready_in_the_background(
     assert screen.status.counts() == "8 levels in 2 episodes. Make ready will look for all gold in 8 levels. 0 problems"
     assert screen.status.counts()[:30] in drawn(driver.app)
     assert "laundry.zip" in drawn(driver.app), "it stays"
+    assert "clipboard" not in screen.packer.text, "it may hold something else by now"
+
+
+def test_a_zip_is_sent_until_its_pack_changes(
+    driver: MenuDriver, path: Path, zipped: PackScreen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    screen, file = zipped, driver.player.folder / "exports" / "laundry.zip"
+    link, saved = Pack(path).files.link(), screen.packer.text
+    assert saved.startswith("Saved: ")
     assert "Send the zip or the link" in drawn(driver.app)
     assert driver.button("Make ready")
     opened_folders: list[str] = []
     monkeypatch.setattr("webbrowser.open", opened_folders.append)
-    driver.choose("Open the folder")
-    assert opened_folders == [zipped.parent.as_uri()]
-    assert screen.packer.text == saved, "the clipboard may hold something else by now"
+    driver.choose("Open the folder")  # a button that comes with the zip
+    assert opened_folders == [file.parent.as_uri()]
     driver.carry(screen.shelves.row_area(2), half(screen, 8))
     assert screen.packer.text == "Changed since laundry.zip"
     assert "Send the zip or the link" not in drawn(driver.app)
     driver.choose("Undo")
     assert screen.packer.text == saved
     copied = copied_links(driver)
-    assert copied[0].endswith(ready.link)
+    assert copied[0].endswith(link)
 
 
 def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
@@ -890,7 +918,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
         return run
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
-    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     screen = opened(driver)
     screen.choose_tray("yours")
     for index in (0, 1):
@@ -1543,9 +1571,9 @@ def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(driver: Me
     driver.type("rolling")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     assert len(browser.shown) > 1
-    browser._sort("name")
+    browser.sort_by("name")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
-    browser._sort("author")
+    browser.sort_by("author")
     assert browser.shown[0].title == "Rolling Hills"
 
 

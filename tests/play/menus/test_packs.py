@@ -148,7 +148,7 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
 def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    browser._sort("difficulty")
+    browser.sort_by("difficulty")
     hard = [entry.pars.difficulty for entry in browser.shown if entry.pars and entry.pars.difficulty is not None]
     assert len(hard) == 8
     assert hard == sorted(hard)

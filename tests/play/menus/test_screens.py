@@ -172,7 +172,7 @@ def test_levels_are_searched_and_sorted(driver: MenuDriver) -> None:
     for _ in "chimney":
         driver.press("backspace")
     assert len(browser.shown) == len(browser.entries)
-    browser._sort("name")
+    browser.sort_by("name")
     titles = [entry.title.casefold() for entry in browser.shown]
     assert titles == sorted(titles)
 

@@ -1,0 +1,136 @@
+"""Messages of a level as rows of text fields, and what drags make of the frames of those near a place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+from ninja_game.editor.stamp import CellArea, area_between
+from ninja_game.errors import LevelError
+from ninja_game.formats.messages import (
+    FRAME_SIZE,
+    NO_CELL,
+    SEPARATOR,
+    WORDS,
+    LevelMessage,
+    header_form,
+    parse_messages,
+    unknown_words,
+)
+from ninja_game.sim.grid import Cell
+
+_ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
+
+DETAILS = {
+    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
+    "gold": ("any", f"{_ONE}; 3: after so many"),
+    "death": ("deaths", "How many deaths: a number from 1 to 99"),
+    "after": ("seconds", "How many seconds: a number from 1 to 99"),
+    "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3"),
+}
+"""What some moments may need besides: an example, and a hint."""
+
+DETAIL, TIME, TEXT = 1, -2, -1
+"""Places of the fields in a row."""
+
+GRIP = 9.0
+"""px of the level from the edge of a frame within which a drag sizes it."""
+
+_BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
+
+
+def listed(words: Sequence[str]) -> str:
+    return ", ".join(f"{{{word}}}" for word in words)
+
+
+@dataclass(eq=False)
+class MessageRow:
+    """``when``: as of a LevelMessage. As typed: ``detail``, of DETAILS, and ``time``, the seconds that it is shown."""
+
+    when: str = "start"
+    detail: str = ""
+    text: str = ""
+    time: str = ""
+
+    @property
+    def moment(self) -> str:
+        return f"{self.when} {' '.join(self.detail.split())}{' s' if self.when == 'after' else ''}".strip()
+
+    @property
+    def source(self) -> str:
+        seconds = self.time.strip().replace(",", ".")
+        shown_for = f" for {seconds} s" if seconds else ""
+        return f"{self.moment}{shown_for}: {header_form(self.text)}"
+
+    @property
+    def problem(self) -> tuple[int, str]:
+        """Which field of the row is wrong, DETAIL, TIME or TEXT, and the problem in words; '' for none."""
+        moment = self.moment
+        if self.when in DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
+            return DETAIL, DETAILS[self.when][1]
+        if not _fits(replace(self, when="start", detail="", text="a text").source):
+            return TIME, _BAD_TIME
+        if not self.text.strip():
+            return TEXT, "Type what is said, or remove the message"
+        if SEPARATOR in self.text:
+            return TEXT, f"A message has no {SEPARATOR}"
+        return TEXT, self.unknown and f"{self.unknown} is not one of {listed(WORDS)}"
+
+    @property
+    def parsed(self) -> LevelMessage | None:
+        """The message, with another text; None at the start, and for a moment that is wrong."""
+        timeless = self.when == "start" or self.problem[0] == DETAIL
+        return None if timeless else parse_messages(f"{self.moment}: a text")[0]
+
+    def put_at(self, cell: Cell, size: Cell) -> None:
+        """Put the middle of its frame at a cell."""
+        self.detail = _detail(LevelMessage("at", "", cell=cell, size=size))
+
+    @property
+    def unknown(self) -> str:
+        """The first unknown word in braces, with the braces; '' for none."""
+        return next((f"{{{name}}}" for name in unknown_words(self.text)), "")
+
+
+def _fits(source: str) -> bool:
+    try:
+        return bool(parse_messages(source))
+    except LevelError:
+        return False
+
+
+def messages_of(says: str) -> list[MessageRow]:
+    return [MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "") for m in parse_messages(says)]
+
+
+def _detail(message: LevelMessage) -> str:
+    if message.cell == NO_CELL:
+        return str(message.number or "")
+    return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != FRAME_SIZE else "")
+
+
+def sizing(message: LevelMessage, x: float, y: float) -> Callable[[Cell], CellArea] | None:
+    """What a drag from a point, px, to a cell makes of a frame: it takes the edge or corner there; None for neither."""
+    (wide, high), across, down = message.reach, x - message.middle[0], y - message.middle[1]
+    if abs(across) > wide + GRIP or abs(down) > high + GRIP:
+        return None
+    on_upright, on_level = abs(abs(across) - wide) <= GRIP, abs(abs(down) - high) <= GRIP
+    edges = on_upright * (1 if across > 0 else -1), on_level * (1 if down > 0 else -1)
+    return partial(_with_edge_at, message.frame, edges) if any(edges) else None
+
+
+def _with_edge_at(frame: CellArea, edges: tuple[int, int], cell: Cell) -> CellArea:
+    """A frame with some of its edges at a cell: -1 left or above, 1 right or below, 0 neither; those opposite stay."""
+    left, top, columns, rows = frame
+    first, last = [left, top], [left + columns - 1, top + rows - 1]
+    for axis, edge in enumerate(edges):
+        if edge < 0:
+            first[axis] = cell[axis]
+        elif edge > 0:
+            last[axis] = cell[axis]
+    return area_between((first[0], first[1]), (last[0], last[1]))
+
+
+def moved(frame: CellArea, begin: Cell, cell: Cell) -> CellArea:
+    return frame[0] + cell[0] - begin[0], frame[1] + cell[1] - begin[1], *frame[2:]
