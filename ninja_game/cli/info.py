@@ -99,11 +99,12 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
 
 def _said(level: NamedLevel) -> list[str]:
     """The messages, each with its moment, as players with the default keys see them in their first try."""
-    from ninja_game.formats.messages import SEPARATOR
-    from ninja_game.play.level.hud_view import level_text
-    from ninja_game.ui.input.bindings import Bindings
+    from ninja_game.files.bundled import asset_rows
+    from ninja_game.formats.messages import SEPARATOR, named_keys
 
-    text = level_text(level.says, Bindings().name, 0, _kind_counts(level)["gold"], 0)
+    words = {action: keys.split()[0].capitalize() for action, _, _, keys, *_ in asset_rows("commands/game.txt") if keys}
+    words |= {"gold left": str(_kind_counts(level)["gold"]), "gold taken": "0", "deaths": "0"}
+    text = named_keys(level.says, words.__getitem__)
     return [part.strip().replace(r"\n", " ") for part in text.split(SEPARATOR)]
 
 
