@@ -26,7 +26,7 @@ class Property(NamedTuple):
 
 
 def _single(vocabulary: Mapping[str, float]) -> dict[str, tuple[float, ...]]:
-    return {word: (number,) for word, number in vocabulary.items()}
+    return {text: (number,) for text, number in vocabulary.items()}
 
 
 _FACING = {"direction": Property((2,), _single(DIRECTION_WORDS))}

@@ -279,8 +279,8 @@ def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
     (ax, ay), (bx, by) = a, b
     if shape == "ellipse":
         turns = [2 * pi * k / _PIECES - pi / 2 for k in range(_PIECES)]
-        points = [((ax + bx + (bx - ax) * cos(t)) / 2, (ay + by + abs(by - ay) * sin(t)) / 2) for t in turns]
-        return [*points, points[0]]
+        outline = [((ax + bx + (bx - ax) * cos(t)) / 2, (ay + by + abs(by - ay) * sin(t)) / 2) for t in turns]
+        return [*outline, outline[0]]
     length = hypot(bx - ax, by - ay) or 1.0
     across = (ay - by) / length, (bx - ax) / length
     shares = [k / _PIECES for k in range(_PIECES + 1)] if bend else [0.0, 1.0]
@@ -460,7 +460,7 @@ def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
     height = next((n for n in range(1, _MAX_STEP) if rock(dx, -dy * n) and rock(0, -dy * n)), _MAX_STEP)
     width *= all(rock(-dx * n, 0) for n in range(1, width))
     height *= all(rock(0, -dy * n) for n in range(1, height))
-    thin, thick, behind = (*_GENTLE, (column - dx, row)) if width > height else (*_STEEP, (column, row - dy))
-    if min(width, height) != 1 or width == height or behind not in near:
+    thin, thick, next_cell = (*_GENTLE, (column - dx, row)) if width > height else (*_STEEP, (column, row - dy))
+    if min(width, height) != 1 or width == height or next_cell not in near:
         return {cell: _SLOPES["1"][quarter]}
-    return {cell: _SLOPES[thin][quarter], behind: _SLOPES[thick][quarter]}
+    return {cell: _SLOPES[thin][quarter], next_cell: _SLOPES[thick][quarter]}

@@ -198,9 +198,9 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
-        able, word = most > 1 + (share is None), head or "Align"
-        hint = f"{word} the selected objects: {text.lower()}"
-        why = f"{word} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
+        able, verb = most > 1 + (share is None), head or "Align"
+        hint = f"{verb} the selected objects: {text.lower()}"
+        why = f"{verb} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
         buttons.append((text, partial(tools.arrange, axis, share) if able else None, hint if able else why))
     return _row(buttons, head, 30)
 
@@ -632,7 +632,7 @@ class ObjectList(EditorPart):
         self._state = state
         words = self._find.text.lower().split()
         texts = map(object_text, tools.draft.objects)
-        self.shown = [number for number, text in enumerate(texts) if all(word in text for word in words)]
+        self.shown = [number for number, text in enumerate(texts) if all(part in text for part in words)]
         chosen = next((place for place, number in enumerate(self.shown) if number in tools.selection.numbers), None)
         self.list.index = self.list.index if chosen is None else chosen
         self.list.fill(self.shown)
