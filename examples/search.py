@@ -46,7 +46,7 @@ _X, _Y, _VX, _VY, _IN_AIR, _HELD = map(list(FIELDS).index, ("x", "y", "vx", "vy"
 
 
 class SearchResult(NamedTuple):
-    """``actions``: those that lead to the exit, one a step, or None; ``ticks``: played in all worlds of the search."""
+    """What a search gives. ``actions``: one per step up to the exit, or None; ``ticks``: played in all its worlds."""
 
     actions: Actions | None
     ticks: int

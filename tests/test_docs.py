@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import inspect
+import io
 import re
+import tokenize
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -153,6 +155,50 @@ def test_constants_that_pages_and_docstrings_name_exist() -> None:
     assert len(in_docstrings) > 5
     assert not [f"{named(page)}: {name}" for page, name in in_pages if name not in known]
     assert not [f"{named(path)}: {'.'.join(home)}" for path, home in in_docstrings if home not in homes]
+
+
+ELSEWHERE = {
+    *("JSON", "LEVEL", "DIFFICULTY", "FIRST", "LAST"),  # plain words, and places in a user's text
+    *("VS_PROFILER", "XDG_DATA_HOME"),  # of Numba, and of the desktop
+}
+"""Words in capitals that only tests have as names of constants, or other programs."""
+
+
+def words_of_code(path: Path) -> tuple[set[str], list[str]]:
+    """The names and quoted words in capitals of a source file, and its comments and docstrings."""
+    word, text = r"\b[A-Z][A-Z\d_]{3,}\b", text_of(path)
+    names, comments = set(re.findall(rf"[\"']({word})[\"']", text)), []
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.NAME:
+            names.add(token.string)
+        elif token.type == tokenize.COMMENT:
+            comments.append(token.string)
+    lone = [node.value for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Expr)]
+    comments += [node.value for node in lone if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    return names, [name for comment in comments for name in re.findall(word, comment)]
+
+
+def test_constants_that_comments_of_the_package_name_exist_in_it() -> None:
+    files = {path: words_of_code(path) for path in SOURCES}
+    package = {path for path in SOURCES if path.is_relative_to(ROOT / "ninja_game")}
+    all_names = {name for names, _ in files.values() for name in names}
+    names = {name for path in package for name in files[path][0]} | ELSEWHERE
+    assert not [
+        f"{named(path)}: {name}"
+        for path, (_, words) in files.items()
+        for name in words
+        if ("_" in name or name in all_names) and name not in (names if path in package else all_names)
+    ]
+
+
+def test_docstrings_say_what_the_thing_is_before_they_explain_its_names() -> None:
+    begins = re.compile(r"(``[^`]+``(, | and )?)+:")
+    assert not [
+        f"{named(path)}:{node.lineno}: {node.name}"
+        for path in [*SOURCES, *(ROOT / "examples").rglob("*.py")]
+        for node in ast.walk(ast.parse(text_of(path)))
+        if isinstance(node, DEFINITIONS) and begins.match(ast.get_docstring(node) or "")
+    ]
 
 
 def test_what_docstrings_of_functions_explain_exists() -> None:

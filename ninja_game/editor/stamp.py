@@ -44,7 +44,7 @@ class Stamp(NamedTuple):
 
 @dataclass(frozen=True)
 class Selection:
-    """``area``: cells whose tiles are selected. ``parts``: objects, or parts of them."""
+    """What is selected in a draft. ``area``: cells whose tiles are selected. ``parts``: objects, or parts of them."""
 
     area: CellArea | None = None
     parts: frozenset[ObjectPart] = frozenset()

@@ -304,7 +304,7 @@ def await_locks(folder: Path) -> None:
 
 
 class Trial(NamedTuple):
-    """``words``: how many a child says at least; ``seconds``: after these, at which it is killed at the latest."""
+    """A child to kill. ``words``: how many it says at least; ``seconds``: after these, at the latest, it is killed."""
 
     child: Callable[[Path, Random, Connection], NoReturn]
     state: type[Game | Drawing | Track]

@@ -115,7 +115,7 @@ _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and
 
 @dataclass(eq=False)
 class MessageRow:
-    """``when``: as of a LevelMessage. As typed: ``detail``, of _DETAILS, and ``time``, the seconds that it is shown."""
+    """A message in the list. ``when``: as of a LevelMessage. As typed: ``detail``, of _DETAILS; ``time``, seconds."""
 
     when: str = "start"
     detail: str = ""
@@ -226,8 +226,9 @@ class _Stage:
 
 
 class MessagesScreen(MenuScreen):
-    """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
+    """The list of a level's messages, with the selected one in the level.
 
+    ``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
     ``test``: plays the level with such a value from just before a message, by its number and its place, if known.
     ``at``: the number of the message that gets the focus. ``mood``: in which the level is played.
     ``certifying_inputs``: gives those of its author's run, if any.

@@ -593,7 +593,7 @@ class _Find(TextEntry):
 
 
 class ObjectList(EditorPart):
-    """``shown``: the numbers of the objects whose texts contain all the words of the search."""
+    """The level's objects. ``shown``: the numbers of those whose texts contain all the words of the search."""
 
     area = LAYOUT.palette
     ground = "panel", (612, 26, 176, 230)

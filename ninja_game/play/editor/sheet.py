@@ -40,8 +40,9 @@ COVERED_ALPHA = 4
 
 
 class LevelSheet:
-    """``surface``: the picture, without the pointer. ``canvas``: from px of the level to px of the sheet.
+    """The picture of a draft, drawn again only where it changes.
 
+    ``surface``: the picture, without the pointer. ``canvas``: from px of the level to px of the sheet.
     ``flat``: to px from the level's own corner, which do not change when another part is shown; used for marks. The
     next ``paint`` draws what ``show`` and the other methods have set.
     """

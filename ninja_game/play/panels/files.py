@@ -19,7 +19,7 @@ _BOTTOM = 546.0
 
 
 class FilesScreen(MenuScreen):
-    """``folder``: the one that is shown; ``top``: the upper edge of the list, px."""
+    """A list of files to choose from. ``folder``: the one that is shown; ``top``: the upper edge of the list, px."""
 
     foot = "Enter opens a folder or a file; Esc goes back"
     suffixes: Sequence[str] = ()
