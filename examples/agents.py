@@ -26,19 +26,15 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.observation import PARTS, Observation
 
-LEARNED = Path(__file__).parent / "agent.npz"
-"""The agent whose training docs/learning.md describes."""
+LEARNED = Path(__file__).parent / "agent.npz"  # the agent whose training docs/learning.md describes
 
 KEPT = 0.8
 """Probability that the random agent keeps an action for a step: keys pressed again ten times a second lead nowhere."""
 
 Floats = NDArray[np.float32]
 
-FORMAT = 1
-"""Of the file; a later one may differ."""
-
-MAX_OBSERVED = 5.0
-"""Observations beyond five standard deviations count as five."""
+FORMAT = 1  # of the file; a later one may differ
+MAX_OBSERVED = 5.0  # observations beyond five standard deviations count as five
 
 
 class RandomAgent:

@@ -30,8 +30,7 @@ from ninja_game.learn.levels.bench import BENCH_GRADES
 
 TEST, TRAIN, TRANSFER = TASKS
 RESAMPLES = 2_000
-SHARE = 0.95
-"""Of the resamples that an interval holds."""
+SHARE = 0.95  # of the resamples that an interval holds
 MAX_BYTES = 2**20
 RANDOM = "random"
 

@@ -36,10 +36,8 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 
-PATIENCE = 60.0
-"""Seconds without a sign of the others after which a process gives up."""
-EPISODES, PASSED, SECONDS = range(3)
-"""What is counted of each process."""
+PATIENCE = 60.0  # seconds without a sign of the others after which a process gives up
+EPISODES, PASSED, SECONDS = range(3)  # what is counted of each process
 
 
 def shared(shape: tuple[int, ...], kind: Any) -> NDArray[Any]:

@@ -8,6 +8,7 @@ import io
 import re
 import tokenize
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 
@@ -199,6 +200,27 @@ def test_docstrings_say_what_the_thing_is_before_they_explain_its_names() -> Non
         for node in ast.walk(ast.parse(text_of(path)))
         if isinstance(node, DEFINITIONS) and begins.match(ast.get_docstring(node) or "")
     ]
+
+
+BEING_MOVED = [ROOT / "ninja_game" / file for file in ("editor/certify.py", "play/editor/messages.py")]
+
+
+@pytest.mark.parametrize("folder", ["ninja_game", "tests", "tools", "benchmarks"])
+def test_a_short_text_about_a_constant_of_one_line_stands_beside_it(folder: str) -> None:
+    below = []
+    for path in (path for path in SOURCES if path.is_relative_to(ROOT / folder) and path not in BEING_MOVED):
+        lines = text_of(path).splitlines()
+        for scope in (
+            node for node in ast.walk(ast.parse(text_of(path))) if isinstance(node, ast.Module | ast.ClassDef)
+        ):
+            for constant, text in pairwise(scope.body):
+                match constant, text:
+                    case ast.Assign() | ast.AnnAssign(), ast.Expr(value=ast.Constant(value=str(words))):
+                        line = lines[constant.lineno - 1]
+                        fits = len(f"{line}  #: {words}") <= 120 and "#" not in line[constant.end_col_offset :]
+                        if fits and constant.end_lineno == constant.lineno and text.end_lineno == constant.lineno + 1:
+                            below.append(f"{named(path)}:{text.lineno}: {words}")
+    assert not below, "write it as a comment beside the constant"
 
 
 def test_what_docstrings_of_functions_explain_exists() -> None:

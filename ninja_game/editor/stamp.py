@@ -19,11 +19,8 @@ from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 from ninja_game.sim.rules import CELL, HALF
 
-CellArea = tuple[int, int, int, int]
-"""First column, first row, columns, rows."""
-
-ObjectPart = tuple[int, int]
-"""Number of an object in its draft, and number of its part."""
+CellArea = tuple[int, int, int, int]  # first column, first row, columns, rows
+ObjectPart = tuple[int, int]  # number of an object in its draft, and number of its part
 
 
 class Stamp(NamedTuple):
@@ -232,8 +229,7 @@ def nearest_part(draft: Draft, x: float, y: float, reach: float) -> ObjectPart |
     return closest
 
 
-_PIECES = 64
-"""Straight pieces of a curve."""
+_PIECES = 64  # straight pieces of a curve
 
 _SLOPES = {family.key: family.tiles for family in FAMILIES if family.key in "12367"}
 _STEEP, _GENTLE = ("2", "6"), ("3", "7")
@@ -268,10 +264,8 @@ _STRETCHES = (
     _Stretch(1, 2, 63.4, 63.4, (_SLOPES["2"][3], _SLOPES["6"][3])),
 )  # fmt: skip
 """Pieces for the upper left quarter of an ellipse: full at its lower right."""
-_TURN = 2e-4
-"""Cost of a turn, cells of area per square degree."""
-_MAX_STEP = 4
-"""Longer steps, or steps ending farther apart on both sides, are treated alike."""
+_TURN = 2e-4  # cost of a turn, cells of area per square degree
+_MAX_STEP = 4  # longer steps, or steps ending farther apart on both sides, are treated alike
 
 
 def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:

@@ -30,8 +30,7 @@ if not compiled_available():
 
 LEDGE = "0" * 23 * 8 + ("0" * 20 + "111") * 2 + "0" * 23 * 21 + "|5^100,566!11^300,566,228,494"
 CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
-TICKS = "100000"
-"""Of a search: enough for each of these levels."""
+TICKS = "100000"  # of a search: enough for each of these levels
 
 WALLED_GOLD = "0" * 23 * 20 + "1" * 23 + "0" * 23 * 10 + "|5^60,566!11^400,566,330,566!0^90,566!0^700,300"
 

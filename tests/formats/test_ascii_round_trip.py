@@ -88,8 +88,7 @@ def test_objects_that_crowd_few_cells_come_back_in_order(drawn: list[tuple[Objec
     assert_round_trip(Level(objects=tuple(crowded)))
 
 
-any_text = st.text(st.characters())
-"""Halves of surrogate pairs too, which JSON can hold."""
+any_text = st.text(st.characters())  # halves of surrogate pairs too, which JSON can hold
 
 
 @given(any_text, any_text, any_text, any_text)

@@ -43,8 +43,7 @@ from tests.support.slow import COMPILED_OR_SLOW
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
 LEVEL = parse_level(TEXT)
-WAITING = bytes([0] * 6 + [2] * 60)
-"""Stands for six ticks, then runs over gold and switch into the exit."""
+WAITING = bytes([0] * 6 + [2] * 60)  # stands for six ticks, then runs over gold and switch into the exit
 
 
 def at_ten_ticks() -> Batch:

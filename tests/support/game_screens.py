@@ -533,8 +533,7 @@ def _film(driver: MenuDriver) -> Iterator[str]:
         driver.app.pop()
 
 
-Tour = Callable[[MenuDriver], Iterator[str]]
-"""Goes from screen to screen; the name of each, when it is shown."""
+Tour = Callable[[MenuDriver], Iterator[str]]  # goes from screen to screen; the name of each, when it is shown
 
 
 class Today(date):

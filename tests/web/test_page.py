@@ -24,8 +24,7 @@ from tests.support.visitor import eventually
 from tests.support.web_page import served
 
 TEXT = "0" * 713 + "|5^100,566!11^160,564,130,564"
-LEVEL = parse_level_string(TEXT)
-"""Who runs right passes."""
+LEVEL = parse_level_string(TEXT)  # who runs right passes
 
 CERTIFICATE = Path(__file__).parents[2] / "levels" / "certificates" / "00-0-first-steps.exit.replay.txt"
 

@@ -45,14 +45,9 @@ from ninja_game.tas.session import TasSession
 from ninja_game.tas.tracks import InputTrack
 from tests.support.samples import replay_of_walk
 
-PATIENCE = 120.0
-"""Seconds to wait for a word of a child."""
-
-Fact = tuple[str, str, int]
-"""What a child says: the kind of fact, such as "saved", what it is about, a number."""
-
-RUN = "walk.replay.txt"
-"""The file that the TAS editor edits."""
+PATIENCE = 120.0  # seconds to wait for a word of a child
+Fact = tuple[str, str, int]  # what a child says: the kind of fact, such as "saved", what it is about, a number
+RUN = "walk.replay.txt"  # the file that the TAS editor edits
 
 # --- the children: each works for ever, saying each time what is saved ---
 

@@ -46,8 +46,7 @@ from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
 _ROW = 22.5
 
-_MESSAGE_LINES = 4
-"""The most lines of a message in the panel."""
+_MESSAGE_LINES = 4  # the most lines of a message in the panel
 
 _OPENS = "Its text, moment, place and frame; a double click on the bubble opens it too"
 
@@ -93,8 +92,7 @@ def _turning(view: EditorView) -> Callable[[Area], Sequence[Widget]]:
     )
 
 
-_Row = Callable[[Area], Widget | Sequence[Widget]]
-"""Makes the widgets of a row in its place."""
+_Row = Callable[[Area], Widget | Sequence[Widget]]  # makes the widgets of a row in its place
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:

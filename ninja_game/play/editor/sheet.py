@@ -32,11 +32,8 @@ from ninja_game.view.sprites.tile_sheet import TileSheet, rects_around, scrolled
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
 """Order of drawing: higher numbers lie in front."""
 
-_MANY = 60
-"""More rectangles than this are merged into one."""
-
-COVERED_ALPHA = 4
-"""Opacity in eighths of an object behind a tile."""
+_MANY = 60  # more rectangles than this are merged into one
+COVERED_ALPHA = 4  # opacity in eighths of an object behind a tile
 
 
 class LevelSheet:
@@ -181,10 +178,8 @@ def united(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
 
 
 MIDDLE = (396.0, 300.0)
-SIGN = 7.0
-"""Half the height of a finding's sign, px."""
-SIGN_AWAY = 14.0
-"""From its cause, across and up, px."""
+SIGN = 7.0  # half the height of a finding's sign, px
+SIGN_AWAY = 14.0  # from its cause, across and up, px
 
 
 class Grid(NamedTuple):

@@ -40,14 +40,11 @@ from ninja_game.ui.widgets import Widget
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
-GHOST = 5
-"""Opacity of the preview of a press, in eighths."""
+GHOST = 5  # opacity of the preview of a press, in eighths
 NEAR_SWITCH_PX = 1.0
 """px; a preview nearer than this to a switch is not drawn: it would hide a switch that was just placed."""
-DOUBLE = 4
-"""Notches of the wheel that double the zoom."""
-EDGE_SPEED = 0.3
-"""Scrolling while something is dragged beyond an edge of the view, logical px per ms."""
+DOUBLE = 4  # notches of the wheel that double the zoom
+EDGE_SPEED = 0.3  # scrolling while something is dragged beyond an edge of the view, logical px per ms
 
 
 @drawing(13)

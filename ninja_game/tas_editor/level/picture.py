@@ -58,8 +58,7 @@ class RunGhost:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
 
-_WARM = 4
-"""Ticks run with animations before a sought one, so that it looks as if played."""
+_WARM = 4  # ticks run with animations before a sought one, so that it looks as if played
 _NEAR = 6  # most ticks that are played rather than sought
 
 
