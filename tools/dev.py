@@ -178,10 +178,10 @@ def main(words: Sequence[str]) -> int:
             words = [program("python"), "-m", "pytest", "--collect-only", "-q"]
             quiet = subprocess.DEVNULL
             with subprocess.Popen(words, cwd=ROOT, stdout=quiet, stderr=quiet) if name == "test" else nullcontext():
-                told = lint(FIX if "--fix" in rest else LINT)
+                lint_code = lint(FIX if "--fix" in rest else LINT)
             failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal", *chosen)
-            print(told, flush=True)
-            return int(failed or told != GOOD)
+            print(lint_code, flush=True)
+            return int(failed or lint_code != GOOD)
         case "test", *rest:
             return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:

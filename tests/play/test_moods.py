@@ -111,8 +111,8 @@ def test_things_stand_out_from_the_scenery(palette: Palette) -> None:
         drawn = rgba(SpriteBook(2.0, palette).sprite(key).surface)
         solid, times = np.unique(drawn[drawn[:, 3] > 250][:, :3], axis=0, return_counts=True)
         for sight in SIGHTS:
-            told = times @ (differences(solid, grounds(palette, look), sight) >= MIN_DIFFERENCE) / times.sum()
-            unseen += [(thing, sight, told.min())] * bool(told.min() < MIN_SHARE)
+            share_seen = times @ (differences(solid, grounds(palette, look), sight) >= MIN_DIFFERENCE) / times.sum()
+            unseen += [(thing, sight, share_seen.min())] * bool(share_seen.min() < MIN_SHARE)
     assert unseen == []
 
 

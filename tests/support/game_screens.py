@@ -350,9 +350,9 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
 
 def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
     """Four messages, as many as a level has, and where two of them are said."""
-    said = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
+    messages = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
     tools = screen.session.tools
-    tools.history.change(replace(tools.draft, says=said))
+    tools.history.change(replace(tools.draft, says=messages))
     driver.frames(2)
     yield "editor-messages-in-the-level"
     driver.chord("m", pygame.KMOD_SHIFT)

@@ -127,14 +127,14 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
 
 def test_an_unknown_command_is_refused_with_the_list(capsys: pytest.CaptureFixture[str]) -> None:
     assert dev.main(["chekc"]) == 2
-    told = capsys.readouterr()
-    assert "no command 'chekc'" in told.err
-    assert "change-rules" in told.err
+    captured = capsys.readouterr()
+    assert "no command 'chekc'" in captured.err
+    assert "change-rules" in captured.err
     assert dev.main(["--help"]) == 0
     assert "change-rules" in capsys.readouterr().out
 
 
-def test_old_pythons_are_told_what_is_needed() -> None:
+def test_old_pythons_are_shown_what_is_needed() -> None:
     source = (ROOT / "tools" / "dev.py").read_text("utf-8")
     # The check stands before anything that a Python of those days could trip over when it runs.
     assert source.index("sys.version_info < (3, 11)") < source.index("\nimport hashlib")

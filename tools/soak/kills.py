@@ -268,7 +268,7 @@ class Track:
     def losses(self, folder: Path, facts: list[Fact]) -> Iterator[str]:
         """More edits than one that are lost, or a file that is not as it was saved."""
         # What changes nothing, such as undo without an edit, is not an edit that could be lost.
-        said = [each for each, _ in groupby([self.last, *(each for kind, each, _ in facts if kind == "edited")])]
+        edits = [each for each, _ in groupby([self.last, *(each for kind, each, _ in facts if kind == "edited")])]
         for kind, each, _ in facts:
             self.saved = {each} if kind == "saved" else self.saved | {each} if kind == "about" else self.saved
         await_locks(folder)
@@ -279,7 +279,7 @@ class Track:
         before = digest_of_track(session.track)
         session.history.redo()
         session.close(keep=True)
-        if (lost := min((said[::-1].index(each) for each in (self.last, before) if each in said), default=0)) > 1:
+        if (lost := min((edits[::-1].index(each) for each in (self.last, before) if each in edits), default=0)) > 1:
             yield f"{lost} edits lost"
         if digest_of_track(open_run(folder / RUN).track) not in self.saved:
             yield "the file is not as it was saved"
@@ -350,7 +350,7 @@ def kill_test(
 ) -> tuple[int, list[str]]:
     """Kill so many children; how many saves and edits they had told of, and everything that is wrong."""
     rng, trial = Random(seed), TRIALS[what]
-    told = 0
+    reported = 0
     wrong: list[str] = []
     for number in range(kills):
         # Every tenth folder is a new one, so that making the files is interrupted too.
@@ -359,15 +359,15 @@ def kill_test(
             state = trial.state(home)
         words = trial.words(rng)
         facts = life(what, home, rng.randrange(2**31), words, rng.random() * trial.seconds)
-        told += sum(kind != "about" for kind, _, _ in facts)
+        reported += sum(kind != "about" for kind, _, _ in facts)
         try:
             lost = [*state.losses(home, facts), *(["it did not start"] if words and not facts else [])]
         except (NinjaGameError, OSError) as error:
             lost = [str(error)]
         wrong += [f"kill {number + 1}: {text}" for text in lost]
         if report and (lost or (number + 1) % 10 == 0):
-            print(f"{number + 1} kills, {told} saves and edits, {len(wrong)} things wrong", flush=True)
-    return told, wrong
+            print(f"{number + 1} kills, {reported} saves and edits, {len(wrong)} things wrong", flush=True)
+    return reported, wrong
 
 
 def main() -> int:
@@ -378,8 +378,8 @@ def main() -> int:
     parser.add_argument("--what", choices=TRIALS, default="records")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        told, wrong = kill_test(folder=Path(folder), report=True, **vars(options))
-    print(*wrong, f"{options.kills} kills, {told} saves and edits, {len(wrong)} things wrong", sep="\n")
+        reported, wrong = kill_test(folder=Path(folder), report=True, **vars(options))
+    print(*wrong, f"{options.kills} kills, {reported} saves and edits, {len(wrong)} things wrong", sep="\n")
     return 1 if wrong else 0
 
 

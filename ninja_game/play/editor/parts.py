@@ -408,8 +408,8 @@ class Properties(EditorPart):
 
     def refresh(self) -> None:
         tools = self.session.tools
-        said = self.view.message is not None and (self.view.message, tools.draft.says)
-        about = tools.tool == "select" and tools.takes, tools.pastes_empty, said, *panel_key(tools)
+        message = self.view.message is not None and (self.view.message, tools.draft.says)
+        about = tools.tool == "select" and tools.takes, tools.pastes_empty, message, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area

@@ -261,7 +261,7 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 11, y - 11, 22, 22),))
 
 
-def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
+def message_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     """The sign of a message: a bubble with three dots."""
     x, y = at
 
@@ -276,7 +276,7 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 @lru_cache(maxsize=4)
-def said_places(draft: Draft) -> Mapping[Point, int]:
+def message_places(draft: Draft) -> Mapping[Point, int]:
     """The centres of the cells with messages, and beside the ninja or the object of other moments, px.
 
     Each with the number of its first message. Cached: the status line asks in every frame.
@@ -292,7 +292,7 @@ def said_places(draft: Draft) -> Mapping[Point, int]:
 
 def message_near(draft: Draft, x: float, y: float) -> int | None:
     """The number of the message with its bubble, or its cell, at a point, px."""
-    near = (number for (a, b), number in said_places(draft).items() if max(abs(x - a), abs(y - b)) <= CELL / 2)
+    near = (number for (a, b), number in message_places(draft).items() if max(abs(x - a), abs(y - b)) <= CELL / 2)
     return next(near, None)
 
 
@@ -342,7 +342,7 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], said: Sequence[Point],
+    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], messages: Sequence[Point],
     axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by their contents: equal keys, equal marks. Those of ``before`` are used again."""
@@ -366,8 +366,8 @@ def level_marks(
                 add(("switch", spec), line)
     for route, colour in routes:
         add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
-    for at in said:
-        add(("said", at), partial(said_mark, canvas, palette, at))
+    for at in messages:
+        add(("message", at), partial(message_mark, canvas, palette, at))
     for at in signs[:100]:
         add(("sign", at), partial(sign_mark, canvas, palette, at))
     return marks

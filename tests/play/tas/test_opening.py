@@ -67,7 +67,7 @@ def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriv
     assert gc.get_threshold() == garbage
 
 
-def test_what_cannot_be_opened_is_told_where_one_came_from(
+def test_what_cannot_be_opened_is_reported_where_one_came_from(
     at: MenuDriver, loaded: Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
