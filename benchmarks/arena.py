@@ -15,8 +15,7 @@ from typing import Any
 from ninja_game.sim.schema.declare import fast, kernel
 
 RADIUS = 0.4
-REACH = 0.8
-"""Two circles touch when their centres are nearer."""
+REACH = 0.8  # two circles touch when their centres are nearer
 
 
 # --- the loose grid ---

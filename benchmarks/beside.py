@@ -27,8 +27,7 @@ from benchmarks.measure_learning import RESULTS
 from ninja_game.runtime import cores
 
 SECONDS, ROUNDS = 0.5, 7
-MANY = 256
-"""Worlds of a vector."""
+MANY = 256  # worlds of a vector
 
 
 def ours(vector: bool, **settings: Any) -> Callable[[], Any]:

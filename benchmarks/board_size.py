@@ -29,8 +29,7 @@ from ninja_game.runs.conversion import replay_texts
 from tests.support.near_copies import EDITS, surviving
 from tests.support.reference import recordings, write_pack
 
-MAX_EDITS, EACH = 10, 20
-"""Edits of a certificate; runs that a player has sent."""
+MAX_EDITS, EACH = 10, 20  # edits of a certificate; runs that a player has sent
 
 
 def edited(recording: Recording, rng: random.Random) -> Iterator[Replay]:

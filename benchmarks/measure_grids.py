@@ -17,8 +17,7 @@ from benchmarks.charts import Chart, seconds_per
 from ninja_game.backend.memories import compiled
 
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
-QUERIES = 16_384
-"""So many that the processor cannot learn their branches by heart, as it does with a few hundred."""
+QUERIES = 16_384  # so many that the processor cannot learn their branches by heart, as it does with a few hundred
 
 
 def walk(random: np.random.Generator, low: float, high: float) -> Any:

@@ -26,8 +26,7 @@ from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation
 
 ROUNDS = 5
-ROUND_SECONDS = 0.2
-"""A round is repeated until it has taken so long: short ones measure the clock."""
+ROUND_SECONDS = 0.2  # a round is repeated until it has taken so long: short ones measure the clock
 
 COMPILED_COSTS = ("load_compiled_us", "save_us", "restore_us", "state_bytes")
 

@@ -26,19 +26,15 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.observation import PARTS, Observation
 
-LEARNED = Path(__file__).parent / "agent.npz"
-"""The agent whose training docs/learning.md describes."""
+LEARNED = Path(__file__).parent / "agent.npz"  # the agent whose training docs/learning.md describes
 
 KEPT = 0.8
 """Probability that the random agent keeps an action for a step: keys pressed again ten times a second lead nowhere."""
 
 Floats = NDArray[np.float32]
 
-FORMAT = 1
-"""Of the file; a later one may differ."""
-
-MAX_OBSERVED = 5.0
-"""Observations beyond five standard deviations count as five."""
+FORMAT = 1  # of the file; a later one may differ
+MAX_OBSERVED = 5.0  # observations beyond five standard deviations count as five
 
 
 class RandomAgent:
@@ -121,8 +117,8 @@ def load_agent(name: str | Path) -> RandomAgent | SearchAgent | PolicyAgent:
 
 def tell_compiling() -> None:
     """Say so before the first kernel that has to be compiled."""
-    said = "compiling the worlds for this machine, the first time only; it takes a minute or two"
-    before_compiling.append(lambda: click.echo(said, err=True))
+    notice = "compiling the worlds for this machine, the first time only; it takes a minute or two"
+    before_compiling.append(lambda: click.echo(notice, err=True))
 
 
 def load_policy(path: Path) -> PolicyAgent:
@@ -168,9 +164,9 @@ def _check(agent: PolicyAgent) -> None:
     size = Observation(agent.settings["observation"], flat=True).space.shape
     if size != agent.mean.shape or size != agent.scale.shape:
         raise ValueError(f"it takes {agent.mean.shape} numbers; its observation has {size}")
-    said = forward(agent.layers, np.zeros((1, *size), np.float32)).shape
-    if said != (1, len(ACTION_NAMES)):
-        raise ValueError(f"it ends in {said} numbers; there are {len(ACTION_NAMES)} actions")
+    shape = forward(agent.layers, np.zeros((1, *size), np.float32)).shape
+    if shape != (1, len(ACTION_NAMES)):
+        raise ValueError(f"it ends in {shape} numbers; there are {len(ACTION_NAMES)} actions")
 
 
 def _written(settings: dict[str, Any]) -> dict[str, Any]:

@@ -30,8 +30,7 @@ from ninja_game.learn.levels.bench import BENCH_GRADES
 
 TEST, TRAIN, TRANSFER = TASKS
 RESAMPLES = 2_000
-SHARE = 0.95
-"""Of the resamples that an interval holds."""
+SHARE = 0.95  # of the resamples that an interval holds
 MAX_BYTES = 2**20
 RANDOM = "random"
 
@@ -67,8 +66,8 @@ def load_results(folder: Path) -> dict[tuple[str, str], list[dict[str, Any]]]:
         except (KeyError, TypeError, ValueError) as error:
             raise FileError("not results of examples/measure.py", file=str(path), found=str(error)[:80]) from error
         if not of_format:
-            said = str(run["format"])[:9]
-            raise FileError("results of another format", file=str(path), found=said, expected=str(FORMAT))
+            format_ = str(run["format"])[:9]
+            raise FileError("results of another format", file=str(path), found=format_, expected=str(FORMAT))
         if other:
             there, expected = digests[other][:12], DIGESTS[other]
             raise FileError(f"measured in other levels: {other}", str(path), found=there, expected=expected)

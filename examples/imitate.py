@@ -25,8 +25,7 @@ from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.inputs import KEYS_DOWN
 
-CHUNK_WORLDS = 500
-"""Levels whose runs are played at once."""
+CHUNK_WORLDS = 500  # levels whose runs are played at once
 ACTION_OF = np.zeros(KEYS_DOWN + 1, np.int32)
 """The action of each combination of keys; left and right together are as none."""
 ACTION_OF[DISCRETE_KEYS] = np.arange(len(DISCRETE_KEYS))

@@ -48,12 +48,9 @@ OBSERVATION: tuple[Part, ...] = (StateVector(), LocalTiles(9), Rays(16), NearObj
 """Exit and switch are in the state vector; gold is nothing to this agent."""
 SQUARES = ((6, 1, 16), (2, 16, 32))
 """Of a network that sees a picture: pixels across a square, channels, features of each of the first layers."""
-MIN_DEVIATION = 0.02
-"""Of an observation; what hardly ever changes would be blown up otherwise."""
-LEARNED_IN = "bench:train:easy:0-98999"
-"""All easy levels to learn in but those of `bench:val`."""
-POINTS = 20
-"""Of the curve."""
+MIN_DEVIATION = 0.02  # of an observation; what hardly ever changes would be blown up otherwise
+LEARNED_IN = "bench:train:easy:0-98999"  # all easy levels to learn in but those of `bench:val`
+POINTS = 20  # of the curve
 OPEN, EXIT_X, EXIT_Y, SWITCH_X, SWITCH_Y = map(
     list(FIELDS).index, ("exit_open", "exit_dx", "exit_dy", "switch_dx", "switch_dy")
 )

@@ -36,10 +36,8 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 
-PATIENCE = 60.0
-"""Seconds without a sign of the others after which a process gives up."""
-EPISODES, PASSED, SECONDS = range(3)
-"""What is counted of each process."""
+PATIENCE = 60.0  # seconds without a sign of the others after which a process gives up
+EPISODES, PASSED, SECONDS = range(3)  # what is counted of each process
 
 
 def shared(shape: tuple[int, ...], kind: Any) -> NDArray[Any]:
@@ -159,11 +157,11 @@ class SeedsTrainer:
         )
 
     def agents(self, training: list[dict[str, Any]]) -> list[PolicyAgent]:
-        """The agent of each seed, with what is told of its training."""
+        """The agent of each seed, with the log of its training."""
         layers = [[np.asarray(part) for part in layer] for layer in self.networks["policy"]]
         return [
-            PolicyAgent([(w[row], b[row]) for w, b in layers], mean, scale, self.crew.made_for, told)
-            for row, (mean, scale, told) in enumerate(zip(*self._norms, training, strict=True))
+            PolicyAgent([(w[row], b[row]) for w, b in layers], mean, scale, self.crew.made_for, logged)
+            for row, (mean, scale, logged) in enumerate(zip(*self._norms, training, strict=True))
         ]
 
 
@@ -196,7 +194,7 @@ def compiled_seeds(networks: Networks, settings: Settings, inputs: int) -> tuple
     ) -> Any:
         rewards, terminated, ended, counts = played
         seen, chosen = seen_by(jnp.stack(observed), norms), jnp.stack(actions)
-        scores, values = (said.reshape(*seen.shape[:2], -1) for said in play(nets, seen.reshape(-1, inputs)))
+        scores, values = (output.reshape(*seen.shape[:2], -1) for output in play(nets, seen.reshape(-1, inputs)))
         chances = jnp.take_along_axis(scores[:-1], chosen[:, :, None], 2)[:, :, 0]
         gains = advantages(rewards, values[:, :, 0], terminated, ended, settings, jnp.stack)
         fair = (gains - gains.mean(where=counts)) / (gains.std(where=counts) + 1e-8)
@@ -225,18 +223,18 @@ def train(level: Any, steps: int, seeds: list[int], each: int, folder: Path, set
     processes that does not fit, OSError for files that cannot be written.
     """
     trainer = SeedsTrainer(level, steps, seeds, settings, each)
-    told: list[dict[str, Any]] = [
+    logs: list[dict[str, Any]] = [
         {"level": str(level), "seed": seed, "settings": asdict(settings), "watch": "", "curve": []} for seed in seeds
     ]
     began, used, before = time.monotonic(), time.process_time(), trainer.crew.counted.sum(axis=1)
     while trainer.steps < steps:
         trainer.improve()
-        point = len(told[0]["curve"]) + 1
+        point = len(logs[0]["curve"]) + 1
         if trainer.steps * POINTS < steps * point and trainer.steps < steps:
             continue
-        agents, since = trainer.agents(told), trainer.crew.counted.sum(axis=1)
+        agents, since = trainer.agents(logs), trainer.crew.counted.sum(axis=1)
         clock, own = time.monotonic() - began, (time.process_time() - used) / len(seeds)
-        for about, (episodes, passed, _), row in zip(told, since - before, since, strict=True):
+        for about, (episodes, passed, _), row in zip(logs, since - before, since, strict=True):
             share = passed / max(episodes, 1)
             about["curve"].append(
                 [trainer.steps, round(clock, 1), round(own + row[SECONDS], 1), round(share, 4), float("nan")]
@@ -244,7 +242,7 @@ def train(level: Any, steps: int, seeds: list[int], each: int, folder: Path, set
         before = since
         for agent, seed in zip(agents, seeds, strict=True):
             agent.save(folder / f"ppo-{seed}-{point:02}.npz")
-        shares = " ".join(f"{about['curve'][-1][3]:.1%}" for about in told)
+        shares = " ".join(f"{about['curve'][-1][3]:.1%}" for about in logs)
         click.echo(f"{trainer.steps:,} steps, {clock:.0f} s: {shares} of the episodes passed", err=True)
 
 

@@ -51,9 +51,9 @@ class SB3VecEnv(VecEnv):  # type: ignore[misc]
         observations, rewards, terminated, truncated, infos = self.envs.step(self._actions)
         self._returns += rewards
         self._lengths += 1
-        told: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        per_world: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         for index in np.flatnonzero(terminated | truncated).tolist():
-            told[index] = {
+            per_world[index] = {
                 "terminal_observation": infos["final_obs"][index],
                 "TimeLimit.truncated": bool(truncated[index]),
                 "is_success": bool(infos["final_info"]["outcome"][index] == 1),
@@ -61,7 +61,7 @@ class SB3VecEnv(VecEnv):  # type: ignore[misc]
                 "episode": {"r": float(self._returns[index]), "l": int(self._lengths[index]), "t": 0.0},
             }
             self._returns[index], self._lengths[index] = 0.0, 0
-        return observations, rewards.astype(np.float32), terminated | truncated, told
+        return observations, rewards.astype(np.float32), terminated | truncated, per_world
 
     def close(self) -> None:
         """Close the environment."""

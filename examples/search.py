@@ -23,30 +23,20 @@ Indices = NDArray[np.intp]
 Actions = NDArray[np.uint8]
 
 SETTINGS: dict[str, Any] = {"observation": StateVector(normalised=False), "frame_skip": 4, "actions": "discrete"}
-WALK = 4
-"""Steps of a walk."""
-CHANGED = 0.5
-"""Chance that a walk changes its action before a step."""
-
-CELL = 12.0
-"""Px: what is less apart counts as the same place."""
-SPEED = 1.0
-"""Px/tick: what differs less counts as the same velocity."""
-
-EARLIER = 8
-"""Ticks by which another arrival at the same moment must be earlier to count."""
-
-TICK_WEIGHT = 0.5
-"""What a tick played counts beside a tick to go: less, so that the search is drawn to the exit."""
-VISIT_WEIGHT = 25.0
-"""Ticks that each walk from a moment counts against it, so that others have their turn."""
+WALK = 4  # steps of a walk
+CHANGED = 0.5  # chance that a walk changes its action before a step
+CELL = 12.0  # px: what is less apart counts as the same place
+SPEED = 1.0  # px/tick: what differs less counts as the same velocity
+EARLIER = 8  # ticks by which another arrival at the same moment must be earlier to count
+TICK_WEIGHT = 0.5  # what a tick played counts beside a tick to go: less, so that the search is drawn to the exit
+VISIT_WEIGHT = 25.0  # ticks that each walk from a moment counts against it, so that others have their turn
 NOISE = 10.0
 
 _X, _Y, _VX, _VY, _IN_AIR, _HELD = map(list(FIELDS).index, ("x", "y", "vx", "vy", "in_air", "jump_held"))
 
 
 class SearchResult(NamedTuple):
-    """``actions``: those that lead to the exit, one a step, or None; ``ticks``: played in all worlds of the search."""
+    """What a search gives. ``actions``: one per step up to the exit, or None; ``ticks``: played in all its worlds."""
 
     actions: Actions | None
     ticks: int

@@ -31,8 +31,7 @@ command's help needs no Gymnasium."""
 
 NO_LIMIT = 2**63  # the budget of what the player played here
 
-TICK_COST = 10
-"""Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled."""
+TICK_COST = 10  # Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled.
 
 _COSTS = {kind.number: kind.cost for kind in KINDS}
 

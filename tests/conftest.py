@@ -61,8 +61,8 @@ def pytest_handlecrashitem(crashitem: str, report: pytest.TestReport) -> None:
     words = [sys.executable, "-m", "pytest", "-p", "no:xdist", "-q", crashitem]
     again = subprocess.run(words, cwd=worker.config.rootpath, capture_output=True, text=True, check=False)
     code = worker.gateway._io.popen.poll()
-    told = "passed" if again.returncode == 0 else f"did NOT pass:\n{again.stdout}{again.stderr}"
-    report.longrepr = f"{report.longrepr} (exit code {code}; Python's trace of it stands above). Alone it {told}"
+    outcome = "passed" if again.returncode == 0 else f"did NOT pass:\n{again.stdout}{again.stderr}"
+    report.longrepr = f"{report.longrepr} (exit code {code}; Python's trace of it stands above). Alone it {outcome}"
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)

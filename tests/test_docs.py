@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import ast
 import inspect
+import io
 import re
+import tokenize
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 
@@ -157,6 +160,68 @@ def test_constants_that_pages_and_docstrings_name_exist() -> None:
     assert not [f"{named(path)}: {'.'.join(home)}" for path, home in in_docstrings if home not in homes]
 
 
+ELSEWHERE = {
+    *("JSON", "LEVEL", "DIFFICULTY", "FIRST", "LAST"),  # plain words, and places in a user's text
+    *("VS_PROFILER", "XDG_DATA_HOME"),  # of Numba, and of the desktop
+}
+"""Words in capitals that only tests have as names of constants, or other programs."""
+
+
+def words_of_code(path: Path) -> tuple[set[str], list[str]]:
+    """The names and quoted words in capitals of a source file, and its comments and docstrings."""
+    word, text = r"\b[A-Z][A-Z\d_]{3,}\b", text_of(path)
+    names, comments = set(re.findall(rf"[\"']({word})[\"']", text)), []
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.NAME:
+            names.add(token.string)
+        elif token.type == tokenize.COMMENT:
+            comments.append(token.string)
+    lone = [node.value for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Expr)]
+    comments += [node.value for node in lone if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    return names, [name for comment in comments for name in re.findall(word, comment)]
+
+
+def test_constants_that_comments_of_the_package_name_exist_in_it() -> None:
+    files = {path: words_of_code(path) for path in SOURCES}
+    package = {path for path in SOURCES if path.is_relative_to(ROOT / "ninja_game")}
+    all_names = {name for names, _ in files.values() for name in names}
+    names = {name for path in package for name in files[path][0]} | ELSEWHERE
+    assert not [
+        f"{named(path)}: {name}"
+        for path, (_, words) in files.items()
+        for name in words
+        if ("_" in name or name in all_names) and name not in (names if path in package else all_names)
+    ]
+
+
+def test_docstrings_say_what_the_thing_is_before_they_explain_its_names() -> None:
+    begins = re.compile(r"(``[^`]+``(, | and )?)+:")
+    assert not [
+        f"{named(path)}:{node.lineno}: {node.name}"
+        for path in [*SOURCES, *(ROOT / "examples").rglob("*.py")]
+        for node in ast.walk(ast.parse(text_of(path)))
+        if isinstance(node, DEFINITIONS) and begins.match(ast.get_docstring(node) or "")
+    ]
+
+
+@pytest.mark.parametrize("folder", ["ninja_game", "tests", "tools", "benchmarks"])
+def test_a_short_text_about_a_constant_of_one_line_stands_beside_it(folder: str) -> None:
+    below = []
+    for path in (path for path in SOURCES if path.is_relative_to(ROOT / folder)):
+        lines = text_of(path).splitlines()
+        for scope in (
+            node for node in ast.walk(ast.parse(text_of(path))) if isinstance(node, ast.Module | ast.ClassDef)
+        ):
+            for constant, text in pairwise(scope.body):
+                match constant, text:
+                    case ast.Assign() | ast.AnnAssign(), ast.Expr(value=ast.Constant(value=str(words))):
+                        line = lines[constant.lineno - 1]
+                        fits = len(f"{line}  #: {words}") <= 120 and "#" not in line[constant.end_col_offset :]
+                        if fits and constant.end_lineno == constant.lineno and text.end_lineno == constant.lineno + 1:
+                            below.append(f"{named(path)}:{text.lineno}: {words}")
+    assert not below, "write it as a comment beside the constant"
+
+
 def test_what_docstrings_of_functions_explain_exists() -> None:
     """A ``name`` before a colon is a parameter, or stands in the body."""
     explained = [
@@ -217,7 +282,7 @@ def test_nothing_is_said_in_a_private_dialect(phrase: str) -> None:
     found = []
     for path in [*SOURCES, *PAGES, *(ROOT / "ninja_game" / "web").rglob("*.js")]:
         if not any(path.is_relative_to(each) for each in exempt):
-            text = text_of(path)
+            text = re.sub(r"(?<=[a-z])_(?=[a-z])", " ", text_of(path))  # names too
             found += [f"{named(path)}: {match.group()}" for match in re.finditer(phrase, text, re.IGNORECASE)]
     assert not found, f"better: {PHRASES[phrase]}"
 

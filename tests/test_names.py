@@ -67,6 +67,40 @@ def test_no_two_public_constants_of_one_name_have_different_values() -> None:
     assert not TWO_MEANINGS.keys() - shared.keys(), "they mean one thing now: strike them out"
 
 
+HIDDEN_PARAMETERS = {"record", "site"}
+"""Options of commands beside a command of that name: click passes them by their names."""
+
+
+def own_names(body: list[ast.stmt]) -> Iterator[str]:
+    """The imports, functions and classes of a module."""
+    for node in body:
+        if isinstance(node, ast.If):
+            yield from own_names(node.body + node.orelse)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            yield from ((alias.asname or alias.name).partition(".")[0] for alias in node.names)
+        elif isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+
+
+def local_names(node: ast.AST, *, inside: bool = False) -> Iterator[tuple[int, str]]:
+    """Line and name of parameters, of the names that functions set, and of those of comprehensions."""
+    inside |= isinstance(node, ast.FunctionDef | ast.Lambda | ast.comprehension)
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.arg) and child.arg not in HIDDEN_PARAMETERS:
+            yield child.lineno, child.arg
+        elif inside and isinstance(child, ast.Name) and isinstance(child.ctx, ast.Store):
+            yield child.lineno, child.id
+        yield from local_names(child, inside=inside)
+
+
+def test_no_local_name_hides_an_import_or_a_function_of_its_module() -> None:
+    hidden = []
+    for file, tree in modules().items():
+        names = {*own_names(tree.body)}
+        hidden += [f"{file}:{line}: {name}" for line, name in local_names(tree) if name in names]
+    assert not hidden, "name the local one after what it holds here"
+
+
 def types(node: ast.stmt) -> Iterator[str]:
     """The public types that a statement names: its class, or its aliases of types."""
     if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):

@@ -22,8 +22,7 @@ from tools import dev
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = ("ninja_game", "tests", "tools", "benchmarks", "examples")
-FIRST_WORDS = {"episode", "level", "replay"}
-"""What follows "ninja-game" in the first line of our files."""
+FIRST_WORDS = {"episode", "level", "replay"}  # what follows "ninja-game" in the first line of our files
 
 
 def commands_in(text: str, program: str) -> list[list[str]]:

@@ -3,8 +3,7 @@
 import os
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-"""The project's folder."""
+ROOT = Path(__file__).resolve().parent.parent  # the project's folder
 
 # Before any of them imports pygame: no window, no sound, no greeting.
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")

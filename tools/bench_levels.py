@@ -22,8 +22,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.levels.bench import BENCH_TABLE, BENCH_TRIES, COUNTS, BenchLevel, bench_level
 from ninja_game.sim.states import OUTCOME_EXIT
 
-MIN_TICKS = 20
-"""Ticks: what is passed sooner is no level."""
+MIN_TICKS = 20  # ticks: what is passed sooner is no level
 
 
 def passes(found: BenchLevel) -> bool:

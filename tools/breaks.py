@@ -49,8 +49,7 @@ MAX_TESTS, BUDGET, SECONDS = 4, 120.0, 600
 PAIRS = "Lt LtE Gt GtE Eq NotEq Is IsNot In NotIn And Or Add Sub Mult Div BitAnd BitOr LShift RShift".split()  # noqa: SIM905
 OTHER = {getattr(ast, name): getattr(ast, PAIRS[place ^ 1]) for place, name in enumerate(PAIRS)}
 """What an operator becomes."""
-ALL = ("--ignore=tests/sim",)
-"""Of a run of all tests: those of the rules execute little else, for long."""
+ALL = ("--ignore=tests/sim",)  # of a run of all tests: those of the rules execute little else, for long
 CLOCK = re.compile(r"\b(monotonic|perf_counter)\(\)")
 NOT_RUN = {"annotation", "returns", "decorator_list", "type_params"}
 
@@ -61,8 +60,7 @@ RULE_TESTS = [
     *(f"tests/sim/test_{name}.py" for name in ("objects_harmless", "objects_deadly", "properties")),
 ]
 """What the breaks of rule_changes.tsv are tried on."""
-ALLOWED = 5
-"""How many of them may survive."""
+ALLOWED = 5  # how many of them may survive
 
 
 class Break(NamedTuple):

@@ -19,8 +19,7 @@ from tools.sounds.music import TRACKS, music
 
 FOLDER = ROOT / "assets" / "sounds"
 
-SOUND_QUALITY, MUSIC_QUALITY = 0.5, 0.25
-"""Of Vorbis, 0 to 1: about 80 and 55 kbit a second in mono."""
+SOUND_QUALITY, MUSIC_QUALITY = 0.5, 0.25  # of Vorbis, 0 to 1: about 80 and 55 kbit a second in mono
 
 
 def made(name: str) -> Wave:

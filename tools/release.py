@@ -27,8 +27,7 @@ from pathlib import Path
 from ninja_game import __version__
 from tools.dev import ROOT, program
 
-WORK = Path(tempfile.gettempdir()) / "ninja-game-release"
-"""Always the same: compiled code holds the names of its files."""
+WORK = Path(tempfile.gettempdir()) / "ninja-game-release"  # always the same: compiled code holds the names of its files
 SITE = f"ninja-game-{__version__}-site"
 FROZEN = f"ninja-game-{__version__}-{sys.platform}"
 
@@ -41,8 +40,7 @@ compile_everything(1, quiet=False)
 """
 """Compiles the kernels of all commands for any processor of the family, into NUMBA_CACHE_DIR."""
 
-NOTES = ("direct_url.json", "uv_cache.json")
-"""Files beside an installed package that are different each time."""
+NOTES = ("direct_url.json", "uv_cache.json")  # files beside an installed package that are different each time
 
 STARTER = """
 import multiprocessing

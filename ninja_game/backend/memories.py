@@ -253,7 +253,7 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
     return kernel
 
 
-def is_compiled(entry: Callable[..., Any]) -> bool:
+def has_compiled_twin(entry: Callable[..., Any]) -> bool:
     """Whether this process has made the compiled twin of a kernel."""
     return (entry, _ALL_CHECKED) in _PROCESS.kernels
 

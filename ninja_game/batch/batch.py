@@ -48,7 +48,7 @@ Indices = NDArray[np.intp]  # indices of worlds or levels
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
 """Worlds: by number, a slice of numbers, or one truth value per world; None: all of them."""
 
-OBJECT_FIELDS = {kind.name: tuple(field.name for field in fields_of(kind.fields)) for kind in KINDS}
+OBJECT_FIELDS = {kind.name: tuple(member.name for member in fields_of(kind.fields)) for kind in KINDS}
 """The fields of ``Batch.objects`` that a kind has, by its name; the other fields hold data of other kinds."""
 
 

@@ -20,8 +20,7 @@ from ninja_game.board.runs import OWN, Rejected, Run, RunKey, RunRows
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
 
-MAX_COMPARED = 1000
-"""Earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied."""
+MAX_COMPARED = 1000  # earlier runs of a level to compare a new one with: the fastest, the likeliest to be copied
 
 CHANGED = 0.65
 """Most ticks changed, added or left out per stroke for the inputs of two runs to count as the same: people who do the

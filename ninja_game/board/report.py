@@ -67,7 +67,7 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     date, and one that has counted stays its player's.
     """
     data = {"runs": [_run_data(run) for run in sorted(judged.runs, key=lambda run: run.key)]}
-    counted = {run.key for run in judged.runs}
+    counting = {run.key for run in judged.runs}
     rejected = {
         (item.file, item.record): {key: getattr(item, key) for key in _FIELDS["rejected"]}
         for item in (*judged.rejected, *judged.again)
@@ -75,7 +75,7 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
     for key, old in (before.rejected | before.runs).items():
         whole = rejected.get((key[0], 0), {})
         row = rejected.get(key) or (whole if whole.get("kind") == "unreadable" else {})
-        if old["way"] and key not in counted and row and row["kind"] not in ("copy", OWN):
+        if old["way"] and key not in counting and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
     ways, names = {(run.level, run.way) for run in judged.runs}, (*_FIELDS["withdrawn"], *_KEPT)

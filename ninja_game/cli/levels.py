@@ -80,9 +80,9 @@ def pars(pack: Path) -> None:
 
     opened = Pack(pack)
     all_pars = dict(with_progress(make_pars(opened), "level"))
-    for file, pars in all_pars.items():
-        times = "  ".join(f"{medal} {seconds_text(pars.par(medal)):>7}" for medal in MARGINS)
-        click.echo(f"{times}  difficulty {pars.difficulty or 0:6.2f}  {shown_text(file)}")
+    for file, made in all_pars.items():
+        times = "  ".join(f"{medal} {seconds_text(made.par(medal)):>7}" for medal in MARGINS)
+        click.echo(f"{times}  difficulty {made.difficulty or 0:6.2f}  {shown_text(file)}")
     Tree(pack).write(PARS, write_pars(all_pars))
     missing = len(opened.levels) - len(all_pars)
     with_pars = f"{counted(len(all_pars), 'level')} with pars"

@@ -221,8 +221,8 @@ def export(file: Path) -> None:
     """Write all data of the player into FILE, a zip."""
     from ninja_game.player.backup import write_backup
 
-    with _player() as player:
-        for line in write_backup(player, file):
+    with _player() as data:
+        for line in write_backup(data, file):
             click.echo(line, err=True)
 
 
@@ -233,8 +233,8 @@ def import_backup(file: Path) -> None:
     from ninja_game.files.reading import read_bytes
     from ninja_game.player.backup import MAX_BACKUP_BYTES, read_backup
 
-    with _player() as player, heartbeat(lambda: "runs the replays of the backup again"):
-        for line in read_backup(player, read_bytes(file, MAX_BACKUP_BYTES)):
+    with _player() as data, heartbeat(lambda: "runs the replays of the backup again"):
+        for line in read_backup(data, read_bytes(file, MAX_BACKUP_BYTES)):
             click.echo(shown_text(line))
 
 
@@ -243,13 +243,13 @@ def _player() -> Iterator[PlayerData]:
     """The player's data, closed afterwards. Raises FileError for records that cannot be used."""
     from ninja_game.player.player_data import PlayerData
 
-    player = PlayerData()
+    data = PlayerData()
     try:
-        player.open_records()
-        if player.store.problem:
-            raise FileError(player.store.problem, str(player.folder))
-        yield player
+        data.open_records()
+        if data.store.problem:
+            raise FileError(data.store.problem, str(data.folder))
+        yield data
     except sqlite3.Error as error:
-        raise FileError("the records cannot be used now", str(player.folder), found=str(error)) from None
+        raise FileError("the records cannot be used now", str(data.folder), found=str(error)) from None
     finally:
-        player.close()
+        data.close()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -206,7 +206,7 @@ def search(
     from ninja_game.formats.load import load_replays
     from ninja_game.search.certificate import improved_replay
     from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask, own_tick, score_text, tidied
+    from ninja_game.search.formula.task import SpanTask, score_text, tidied
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise cannot be used together")
@@ -240,16 +240,24 @@ def search(
         report.save(results[0])
     for result in results or report.misses[-1:]:
         click.echo(f"{score_text(task, result)}: {_keys(result)}")
+    if results and output:
+        click.echo(f"{output}: the first of them")
+    for line in _advice(task, found, results):
+        click.echo(line)
+    return 0 if results else FAILED
+
+
+def _advice(task: SpanTask, found: Sequence[SpanResult], results: Sequence[SpanResult]) -> Iterator[str]:
+    """What may help where nothing was found, or nothing sooner than in the run. ``results``: those that are better."""
+    from ninja_game.search.formula.task import own_tick
+
     if not results:
         what = "nothing sooner was found" if found else "the goal was not reached"
-        click.echo(f"{what}; more time, a longer span or another --method may help")
-    elif output:
-        click.echo(f"{output}: the first of them")
-    own = own_tick(task) if goal and not (task.measure or rest) else None
-    if own is not None and (not results or first + results[0].ticks > own):
-        longer = f"; --to {own + 1} includes it" if own >= last else ""
-        click.echo(f"nothing sooner than RUN, which reaches the goal in tick {own}{longer}")
-    return 0 if results else FAILED
+        yield f"{what}; more time, a longer span or another --method may help"
+    own = own_tick(task) if task.goal and not (task.measure or task.rest) else None
+    if own is not None and (not results or task.first + results[0].ticks > own):
+        longer = f"; --to {own + 1} includes it" if own >= task.last else ""
+        yield f"nothing sooner than RUN, which reaches the goal in tick {own}{longer}"
 
 
 class _SpanReport:

@@ -36,13 +36,13 @@ def table_of(group: Sequence[RunSplits], against: Sequence[RunSplits]) -> Table:
 
 def titles(recordings: Sequence[Recording]) -> list[str]:
     """Distinct names of recordings: their own, or file and record if that is missing or not unique."""
-    titles = [shown_text(recording.name) for recording in recordings]
-    unique = [title for title, number in Counter(titles).items() if title and number == 1]
+    names = [shown_text(recording.name) for recording in recordings]
+    unique = [title for title, number in Counter(names).items() if title and number == 1]
     for number, recording in enumerate(recordings):
-        if titles[number] not in unique:
+        if names[number] not in unique:
             file = Path(recording.file).name.removesuffix(REPLAY_SUFFIX)
-            titles[number] = f"{shown_text(file)}:{recording.record}"
-    return titles
+            names[number] = f"{shown_text(file)}:{recording.record}"
+    return names
 
 
 def show(tables: Sequence[Table]) -> None:

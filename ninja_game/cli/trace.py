@@ -80,8 +80,8 @@ def trace(
     traces = _traces(files, record=record, **how)
     different = 0
     if digests:
-        for trace in traces:
-            click.echo(json.dumps(_digests(trace)))
+        for run in traces:
+            click.echo(json.dumps(_digests(run)))
     elif against:
         different = _compare(traces, _expected(against, against_record, how), against, against_record)
     else:
@@ -98,12 +98,12 @@ def _traces(files: Sequence[Path], **how: Any) -> Readable[FiledTrace]:
     return Readable(with_progress(trace_all(files, **how), "trace"))
 
 
-def _digests(trace: FiledTrace) -> dict[str, Any]:
+def _digests(traced: FiledTrace) -> dict[str, Any]:
     from ninja_game.runs.trace import trace_digests
 
-    digests = trace_digests(trace.run)
+    digests = trace_digests(traced.run)
     return {
-        "file": trace.file, "record": trace.record, "name": trace.name, "ticks": digests.ticks,
+        "file": traced.file, "record": traced.record, "name": traced.name, "ticks": digests.ticks,
         "ninja_sha256": digests.ninja_sha256, "run_sha256": digests.run_sha256,
         "objects": {str(id_): text for id_, text in digests.objects.items()},
     }  # fmt: skip
@@ -114,7 +114,7 @@ def _expected(against: Path, record: int | None, how: dict[str, Any]) -> Iterato
     from ninja_game.runs.trace_files import is_trace, read_traces
 
     if is_trace(against):
-        return (trace for trace in read_traces(against) if record is None or trace.record == record)
+        return (traced for traced in read_traces(against) if record is None or traced.record == record)
     return iter(_traces([against], record=record, **how))
 
 
@@ -126,19 +126,19 @@ def _compare(traces: Readable[FiledTrace], expected: Iterator[FiledTrace], again
     from ninja_game.runs.trace import first_difference
 
     pairs: dict[Any, RunTrace] = {}
-    for trace in expected:
-        pairs[trace.file, trace.record] = pairs[trace.record] = trace.run
+    for traced in expected:
+        pairs[traced.file, traced.record] = pairs[traced.record] = traced.run
     if record is not None and record not in pairs:
         raise click.UsageError(f"{against}: no record {record}")
     different = 0
-    for trace in traces:
-        section = trace.comment if SECTION.fullmatch(trace.comment) else ""
-        number = trace.record if record is None else record
-        there = pairs.get((trace.file, number), pairs.get(number))
-        difference = first_difference(trace.run, there, section) if there else f"record {number} is not in {against}"
+    for traced in traces:
+        section = traced.comment if SECTION.fullmatch(traced.comment) else ""
+        number = traced.record if record is None else record
+        there = pairs.get((traced.file, number), pairs.get(number))
+        difference = first_difference(traced.run, there, section) if there else f"record {number} is not in {against}"
         if difference:
             different += 1
-            click.echo(f"{shown_text(trace.file)}:{trace.record} {shown_text(trace.name)}: {difference}")
+            click.echo(f"{shown_text(traced.file)}:{traced.record} {shown_text(traced.name)}: {difference}")
     click.echo(f"{traces.count - different} of {traces.count} equal to {shown_text(str(against))}")
     return different
 

@@ -17,8 +17,7 @@ from ninja_game.sim.rules import CELL, HALF
 SNAPS: dict[str, float] = {"cell": CELL, "half": HALF, "quarter": HALF / 2, "px": 1.0}
 """px between possible places of objects, by name; "cell": in the middle, or where the kind sits in a cell."""
 
-QUARTERS = "qwas"
-"""Keys placed like the solid corner of a tile: upper left, upper right, lower left, lower right."""
+QUARTERS = "qwas"  # keys placed like the solid corner of a tile: upper left, upper right, lower left, lower right
 
 
 class Family(NamedTuple):
@@ -35,8 +34,7 @@ FAMILIES = tuple(
 """The families of tiles. Halves by quarter: left, upper, lower, right."""
 
 EMPTY, FULL = 0, 1
-TILE_KEYS = {EMPTY: "0", FULL: "9"}
-"""The keys of the tiles without a family."""
+TILE_KEYS = {EMPTY: "0", FULL: "9"}  # the keys of the tiles without a family
 
 _SHAPES = ("45° slope", "hollow curve", "round curve", "22° thin", "22° thick", "67° thin", "67° thick")
 _CORNERS = ("lower left", "lower right", "upper right", "upper left")

@@ -112,8 +112,7 @@ def draft_of_text(text: str, about: Draft) -> Draft:
 
 AUTOSAVE_SUFFIX = ".json"
 
-_SPACING = 0.4
-"""Least seconds between two autosaves."""
+_SPACING = 0.4  # least seconds between two autosaves
 
 
 UNDO = "undo"  # the folder of kept histories, in EDITING

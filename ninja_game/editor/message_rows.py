@@ -31,11 +31,8 @@ DETAILS = {
 }
 """What some moments may need besides: an example, and a hint."""
 
-DETAIL, TIME, TEXT = 1, -2, -1
-"""Places of the fields in a row."""
-
-GRIP = 9.0
-"""px of the level from the edge of a frame within which a drag sizes it."""
+DETAIL, TIME, TEXT = 1, -2, -1  # places of the fields in a row
+GRIP = 9.0  # px of the level from the edge of a frame within which a drag sizes it
 
 _BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
 

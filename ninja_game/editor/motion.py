@@ -61,8 +61,7 @@ class Motion(NamedTuple):
         return self._replace(dx=x - a, dy=y - b)
 
 
-FLIP, MIRROR = Motion(yy=-1), Motion(xx=-1)
-"""Up-down and left-right."""
+FLIP, MIRROR = Motion(yy=-1), Motion(xx=-1)  # up-down and left-right
 CLOCKWISE, HALF_TURN = Motion(0, -1, 1, 0), Motion(-1, 0, 0, -1)
 
 _MIDDLE = WORLD_WIDTH / 2, WORLD_HEIGHT / 2

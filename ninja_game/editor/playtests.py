@@ -23,14 +23,12 @@ from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL, GOLD_RADIUS, RADIUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
-TICKS = TICKS_PER_SECOND
-"""Ticks simulated for the overlay, and least ticks of a test before its message: a second."""
+TICKS = TICKS_PER_SECOND  # ticks simulated for the overlay, and least ticks of a test before its message: a second
 
 _AROUND, _FLOORS = 8, 16
 """How many cells around a place, below it twice as many, and how many floors there, a test may begin on."""
 
-PathPoints = tuple[Point, ...]
-"""The ninja's place after each tick, px."""
+PathPoints = tuple[Point, ...]  # the ninja's place after each tick, px
 
 
 class Try(NamedTuple):
@@ -113,8 +111,7 @@ def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
     return inputs[: stood if alive - stood <= 2 * TICKS else alive]
 
 
-TOUCH = RADIUS + GOLD_RADIUS
-"""px between the ninja and gold or a switch that it touches."""
+TOUCH = RADIUS + GOLD_RADIUS  # px between the ninja and gold or a switch that it touches
 
 
 def place_before(draft: Draft, place: Point, size: Cell = FRAME_SIZE, *, touch: bool = False) -> Point | None:

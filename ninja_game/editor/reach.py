@@ -21,11 +21,8 @@ from ninja_game.sim.states import FALLING, JUMPING, OUTCOME_DEAD
 STARTS = {"off": None, "standing": 0.0, "running right": TOP_SPEED, "running left": -TOP_SPEED}
 """Speeds at the start to the right, px/tick; "off": nothing is shown."""
 
-SQUARE = 4.0
-"""Side of the squares in which reached places are shown, px."""
-
-SquareRow = tuple[float, float, float]
-"""Squares side by side: left edge, top, width, px."""
+SQUARE = 4.0  # side of the squares in which reached places are shown, px
+SquareRow = tuple[float, float, float]  # squares side by side: left edge, top, width, px
 
 
 class Ask(NamedTuple):
@@ -51,11 +48,8 @@ class Reach(NamedTuple):
     dangers: tuple[PathPoints, ...]
 
 
-LANDED_TICK = 4
-"""The first tick in which a ninja that was placed on the floor stands and can jump."""
-
-_BOUNCE = 9
-"""Ticks for which jumps at walls hold the jump key."""
+LANDED_TICK = 4  # the first tick in which a ninja that was placed on the floor stands and can jump
+_BOUNCE = 9  # ticks for which jumps at walls hold the jump key
 
 
 class _Plan(NamedTuple):

@@ -25,8 +25,7 @@ if TYPE_CHECKING:
 
 LOADING, COMPILING = "Loading the solver", "Compiling the solver, the first time on a machine a minute or more"
 
-SECONDS = 20.0
-"""How long the solver looks for better runs."""
+SECONDS = 20.0  # how long the solver looks for better runs
 
 
 @dataclass(eq=False)

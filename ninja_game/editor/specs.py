@@ -14,8 +14,7 @@ from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KIND_NAMES, LAU
 from ninja_game.sim.level import ObjectSpec, makes_object, well_formed
 from ninja_game.sim.rules import CELL, HALF
 
-BODY_PART, SWITCH_PART = 0, 1
-"""Parts of an object: its body, and its switch."""
+BODY_PART, SWITCH_PART = 0, 1  # parts of an object: its body, and its switch
 
 
 class Property(NamedTuple):
@@ -26,7 +25,7 @@ class Property(NamedTuple):
 
 
 def _single(vocabulary: Mapping[str, float]) -> dict[str, tuple[float, ...]]:
-    return {word: (number,) for word, number in vocabulary.items()}
+    return {text: (number,) for text, number in vocabulary.items()}
 
 
 _FACING = {"direction": Property((2,), _single(DIRECTION_WORDS))}
@@ -44,8 +43,7 @@ PROPERTIES: dict[int, dict[str, Property]] = {
     DOOR: {"type": Property((3, 6), DOORS), "side": Property((2, 7, 8), SIDES)},
 }
 
-_SIDES = ("right", "bottom", "left", "top")
-"""Indexed by direction."""
+_SIDES = ("right", "bottom", "left", "top")  # indexed by direction
 
 
 def properties(spec: ObjectSpec) -> dict[str, Property]:

@@ -19,11 +19,8 @@ from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 from ninja_game.sim.rules import CELL, HALF
 
-CellArea = tuple[int, int, int, int]
-"""First column, first row, columns, rows."""
-
-ObjectPart = tuple[int, int]
-"""Number of an object in its draft, and number of its part."""
+CellArea = tuple[int, int, int, int]  # first column, first row, columns, rows
+ObjectPart = tuple[int, int]  # number of an object in its draft, and number of its part
 
 
 class Stamp(NamedTuple):
@@ -44,7 +41,7 @@ class Stamp(NamedTuple):
 
 @dataclass(frozen=True)
 class Selection:
-    """``area``: cells whose tiles are selected. ``parts``: objects, or parts of them."""
+    """What is selected in a draft. ``area``: cells whose tiles are selected. ``parts``: objects, or parts of them."""
 
     area: CellArea | None = None
     parts: frozenset[ObjectPart] = frozenset()
@@ -232,8 +229,7 @@ def nearest_part(draft: Draft, x: float, y: float, reach: float) -> ObjectPart |
     return closest
 
 
-_PIECES = 64
-"""Straight pieces of a curve."""
+_PIECES = 64  # straight pieces of a curve
 
 _SLOPES = {family.key: family.tiles for family in FAMILIES if family.key in "12367"}
 _STEEP, _GENTLE = ("2", "6"), ("3", "7")
@@ -268,10 +264,8 @@ _STRETCHES = (
     _Stretch(1, 2, 63.4, 63.4, (_SLOPES["2"][3], _SLOPES["6"][3])),
 )  # fmt: skip
 """Pieces for the upper left quarter of an ellipse: full at its lower right."""
-_TURN = 2e-4
-"""Cost of a turn, cells of area per square degree."""
-_MAX_STEP = 4
-"""Longer steps, or steps ending farther apart on both sides, are treated alike."""
+_TURN = 2e-4  # cost of a turn, cells of area per square degree
+_MAX_STEP = 4  # longer steps, or steps ending farther apart on both sides, are treated alike
 
 
 def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
@@ -279,8 +273,8 @@ def curve(shape: str, a: Point, b: Point, bend: float = 0.0) -> list[Point]:
     (ax, ay), (bx, by) = a, b
     if shape == "ellipse":
         turns = [2 * pi * k / _PIECES - pi / 2 for k in range(_PIECES)]
-        points = [((ax + bx + (bx - ax) * cos(t)) / 2, (ay + by + abs(by - ay) * sin(t)) / 2) for t in turns]
-        return [*points, points[0]]
+        outline = [((ax + bx + (bx - ax) * cos(t)) / 2, (ay + by + abs(by - ay) * sin(t)) / 2) for t in turns]
+        return [*outline, outline[0]]
     length = hypot(bx - ax, by - ay) or 1.0
     across = (ay - by) / length, (bx - ax) / length
     shares = [k / _PIECES for k in range(_PIECES + 1)] if bend else [0.0, 1.0]
@@ -460,7 +454,7 @@ def _corner(draft: Draft, cell: Cell, near: set[Cell]) -> Tiles:
     height = next((n for n in range(1, _MAX_STEP) if rock(dx, -dy * n) and rock(0, -dy * n)), _MAX_STEP)
     width *= all(rock(-dx * n, 0) for n in range(1, width))
     height *= all(rock(0, -dy * n) for n in range(1, height))
-    thin, thick, behind = (*_GENTLE, (column - dx, row)) if width > height else (*_STEEP, (column, row - dy))
-    if min(width, height) != 1 or width == height or behind not in near:
+    thin, thick, next_cell = (*_GENTLE, (column - dx, row)) if width > height else (*_STEEP, (column, row - dy))
+    if min(width, height) != 1 or width == height or next_cell not in near:
         return {cell: _SLOPES["1"][quarter]}
-    return {cell: _SLOPES[thin][quarter], behind: _SLOPES[thick][quarter]}
+    return {cell: _SLOPES[thin][quarter], next_cell: _SLOPES[thick][quarter]}

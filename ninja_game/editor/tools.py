@@ -25,21 +25,15 @@ from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
 CURVES = ("line", "ellipse")
 SHAPES = ("rectangle", *CURVES)
 TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
-TAKES = ("both", "tiles", "objects")
-"""The choices of Select."""
+TAKES = ("both", "tiles", "objects")  # the choices of Select
 SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
-BEND = 12.0
-"""px per step of bending a line."""
-NEAREST = "nearest"
-"""Doors go to the side nearest to the pointer."""
-DRAGGED = PICK_REACH = 12.0
-"""A press that moves farther than this is a drag; a nearer object is picked, px."""
-REACH = 17.32
-"""px within which an object is deleted (√300: game.md §6), or selected by a click."""
+BEND = 12.0  # px per step of bending a line
+NEAREST = "nearest"  # doors go to the side nearest to the pointer
+DRAGGED = PICK_REACH = 12.0  # a press that moves farther than this is a drag; a nearer object is picked, px
+REACH = 17.32  # px within which an object is deleted (√300: game.md §6), or selected by a click
 
 
-Ends = Sequence[tuple[Cell, ...]]
-"""The cells at each end of a line."""
+Ends = Sequence[tuple[Cell, ...]]  # the cells at each end of a line
 
 
 class Gesture(StrEnum):

@@ -37,8 +37,9 @@ _MOMENTS = (
 
 
 class LevelMessage(NamedTuple):
-    """``when``: a name of _EVENTS, "death", "after" or "at". ``number``: of deaths, of pieces of gold, or of seconds.
+    """A message of a level to its player.
 
+    ``when``: a name of _EVENTS, "death", "after" or "at". ``number``: of deaths, of pieces of gold, or of seconds.
     ``text``: up to MAX_MESSAGE_LINES lines.
     ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
     time. ``size``: of its frame, in cells: of an even number there is one more left of, or above, its cell.

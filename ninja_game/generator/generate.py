@@ -107,9 +107,9 @@ def plan_of(seed: int | str, rng: Random) -> str:
     return layouts[seed % len(layouts)] if isinstance(seed, int) else rng.choice(layouts)
 
 
-def _is_near(measured: float, difficulty: int, times: int = 1) -> bool:
+def _is_near(measured: float, wanted: int, times: int = 1) -> bool:
     """Whether a measured difficulty is close enough to the wanted one; ``times`` widens the tolerance."""
-    return abs(measured - difficulty) <= times * max(0.5, 0.15 * difficulty)
+    return abs(measured - wanted) <= times * max(0.5, 0.15 * wanted)
 
 
 def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Event) -> tuple[Replay, float] | None:

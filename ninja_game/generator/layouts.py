@@ -16,9 +16,9 @@ Layout = Callable[[RockBoard, Random], None]
 MID = 16.5
 
 
-def dome(x: float, y: float, width: float, height: float) -> Ink:
-    """A roof with a flat underside; ``width``: half its width, ``height``: its height."""
-    return disc(x, round(y), width, height) & box(1, 1, 32, round(y))
+def dome(x: float, y: float, half_width: float, height: float) -> Ink:
+    """A roof with a flat underside; ``half_width``: half its width, ``height``: its height."""
+    return disc(x, round(y), half_width, height) & box(1, 1, 32, round(y))
 
 
 def heart(board: RockBoard, rng: Random) -> None:
@@ -46,8 +46,8 @@ def mask(board: RockBoard, rng: Random) -> None:
 def web(board: RockBoard, rng: Random) -> None:
     """A ring in a ring, their gates turned against each other."""
     board.dig(disc(MID, 12.5, 15.2, 11.2) & box(1, 1, 32, 23))
-    width, height = rng.choice(((10.6, 7.7), (11.2, 7.4)))
-    board.rock(disc(MID, 12.5, width, height) & ~disc(MID, 12.5, width - 1.5, height - 1.3))
+    half_width, half_height = rng.choice(((10.6, 7.7), (11.2, 7.4)))
+    board.rock(disc(MID, 12.5, half_width, half_height) & ~disc(MID, 12.5, half_width - 1.5, half_height - 1.3))
     board.rock(disc(MID, 12.5, 5.8, 4.0))
     board.dig(disc(MID, 11.6, 4.1, 2.2))
     board.dig_vault(14, 18, 13, gate=19)
@@ -69,8 +69,8 @@ def islands(board: RockBoard, rng: Random) -> None:
     board.dig_vault(14, 18, 12, gate=18)
     sea = rng.choice(((3.0, 9), (3.5, 7)))
     for x, y in ((sea[0], sea[1]), (6.6, 14), (9.3, rng.choice((5.5, 7))), (9.5, 18.5)):
-        wide = rng.uniform(2.0, 2.7)
-        board.rock(dish(x, y, wide, 1.9), dome(x, y + 0.1, wide, rng.choice((0.1, 0.1, 1.0))))
+        half_width = rng.uniform(2.0, 2.7)
+        board.rock(dish(x, y, half_width, 1.9), dome(x, y + 0.1, half_width, rng.choice((0.1, 0.1, 1.0))))
 
 
 def cathedral(board: RockBoard, rng: Random) -> None:

@@ -44,7 +44,8 @@ from ninja_game.sim.world import step
 from ninja_game.simulation import SaveState, Simulation
 
 EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
-OUTCOME_ROW, TICKS_ROW, GOLD_ROW, EVENTS_ROW, ENDED_ROW, PLAYED_ROW, WAIT_ROW, RANDOM_ROW = range(8)
+_FACT_ROWS = 8
+OUTCOME_ROW, TICKS_ROW, GOLD_ROW, EVENTS_ROW, ENDED_ROW, PLAYED_ROW, WAIT_ROW, RANDOM_ROW = range(_FACT_ROWS)
 """Rows of ``facts``, a column per world: keys of its last tick in PLAYED_ROW, remaining steps without keys in WAIT_ROW,
 state of the generator that decides whether keys are repeated (`protocol.py`) in RANDOM_ROW."""
 _TERMINATED, _TRUNCATED = 1, 2  # how an episode has ended; 0: it has not
@@ -244,16 +245,14 @@ class EnvWorlds:
         level_of: Indices = np.asarray(self._worlds.level_of)
         self.levels_now: Indices = np.full(count, NO_LEVEL) if self._unbounded else level_of
         self.rewards = np.zeros(count)
-        self._facts = np.zeros((8, count), np.int64)
+        self._facts = np.zeros((_FACT_ROWS, count), np.int64)
         self.outcomes, self.ticks, self.gold, self.events, self._ended, self.played = self._facts[:WAIT_ROW]
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
         weights = context.table(weights_of(terms), np.float64)
-        # The first and last arguments of the kernels.
-        self._places = (self._worlds.maps, level_of, self._worlds.worlds)
-        chance = int(repeat * CHANCES)
-        ends = self.terminated, self.truncated
-        self._episodes = (frame_skip, time_limit, chance, weights, self.rewards, self._facts, self._changed, *ends)
+        self._first_arguments = (self._worlds.maps, level_of, self._worlds.worlds)
+        results = self.rewards, self._facts, self._changed, self.terminated, self.truncated
+        self._last_arguments = (frame_skip, time_limit, int(repeat * CHANCES), weights, *results)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
             "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,
@@ -292,7 +291,7 @@ class EnvWorlds:
             ticks = 0
             for start in range(first, last, CHUNK_WORLDS):
                 end = min(start + CHUNK_WORLDS, last)
-                ticks += self._advance(*self._places, indices, start, end, keys, *self._episodes)
+                ticks += self._advance(*self._first_arguments, indices, start, end, keys, *self._last_arguments)
                 if self.goal:
                     self.goal.measure(self.levels_now, indices, start, end)
                 self._write(indices, start, end)
@@ -312,7 +311,7 @@ class EnvWorlds:
 
     def _write(self, indices: Indices, first: int, last: int) -> int:
         for write, arguments in self._writers:
-            write(*self._places, indices, first, last, *arguments)
+            write(*self._first_arguments, indices, first, last, *arguments)
         return 0
 
     def _observe(self, indices: Indices) -> None:

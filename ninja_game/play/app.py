@@ -41,8 +41,7 @@ class Screen(BaseScreen):
 
 CALM_MOOD = Mood()  # the mood of all menus, whatever level was played before
 
-UNSEEN = {"dummy", "offscreen"}
-"""SDL drivers without a visible window: no wipe, and no waiting for the next picture."""
+UNSEEN = {"dummy", "offscreen"}  # SDL drivers without a visible window: no wipe, and no waiting for the next picture
 
 FALLBACK_RATE = 60  # pictures per second where the display does not say its rate
 

@@ -276,9 +276,9 @@ def _ahead(start: Widget, goal: Widget, dx: int, dy: int) -> float:
 def _aside(start: Widget, goal: Widget, dx: int) -> float:
     """Distance of two widgets across a direction, px; 0 where they overlap."""
     side = 1 if dx else 0
-    low, height = start.area[side], start.area[side] + start.area[side + 2]
+    low, high = start.area[side], start.area[side] + start.area[side + 2]
     other_low, other_high = goal.area[side], goal.area[side] + goal.area[side + 2]
-    return max(0.0, other_low - height, low - other_high)
+    return max(0.0, other_low - high, low - other_high)
 
 
 PANEL_WIDTH = 300

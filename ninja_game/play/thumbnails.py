@@ -20,8 +20,7 @@ from ninja_game.ui.medals import MEDALS_FROM_BRONZE, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Theme
 from ninja_game.view.sprites.thumbnail import thumbnail
 
-BUDGET = 0.006
-"""Seconds per picture that may go to thumbnails after the first."""
+BUDGET = 0.006  # seconds per picture that may go to thumbnails after the first
 
 MAX_KEPT = 600
 

@@ -319,8 +319,8 @@ def _is_valid(column: str, value: str | int) -> bool:
 
 
 def _count(db: sqlite3.Connection) -> int:
-    count: int = db.execute("SELECT count(*) FROM replay").fetchone()[0]
-    return count
+    number: int = db.execute("SELECT count(*) FROM replay").fetchone()[0]
+    return number
 
 
 def _merge_episodes(mine: Records, theirs: Records, replay_of: Callable[[int], Replay | None]) -> None:

@@ -89,10 +89,10 @@ class PackProgress:
         number = episode // EPISODES_PER_COLUMN
         with self.store.change() as db:
             before = self.columns[number]
-            reached = _advanced(before.reached, episode, goal)
+            furthest = _advanced(before.reached, episode, goal)
             beaten = _advanced(before.beaten, episode, goal) if legitimate else before.beaten
-            if (reached, beaten) != before:
-                row = (self.pack, number, *reached, *beaten)
+            if (furthest, beaten) != before:
+                row = (self.pack, number, *furthest, *beaten)
                 db.execute(f"REPLACE INTO progress (pack, {_COLUMN_NAMES}) VALUES (?, ?, ?, ?, ?, ?)", row)
                 self._epoch = -1
 

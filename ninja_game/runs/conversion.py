@@ -23,8 +23,7 @@ from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import RULES_VERSION
 
-_COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
-"""A line with a comment in an ASCII level, outside of header and picture."""
+_COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")  # a line with a comment in an ASCII level, outside of header and picture
 
 
 def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> Iterator[str]:

@@ -46,22 +46,17 @@ from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import Ninja
 from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_RUNNING
 
-CHOICES = 10
-"""Macros per state: three directions by three modes of the jump key, and waiting."""
+CHOICES = 10  # macros per state: three directions by three modes of the jump key, and waiting
 FOLLOW_CHOICES = 3
 """Rows of a known run from which a search follows it: the one nearest to the state, and its two neighbours."""
 FEWEST_TICKS_FOLLOWED, DRAWN_TICKS_FOLLOWED = 3, 24
 """Ticks for which a known run is followed at once: the fewest, and how many numbers are drawn from there."""
-ROOM = 16
-"""Nodes and links for which there must be room before a node is expanded, more than it has children."""
+ROOM = 16  # nodes and links for which there must be room before a node is expanded, more than it has children
 BOUND_SHARE = 0.4
 """Share of the estimate in the comparison of a node with the best run: fields may be too high. Not tuned."""
-MIN_GAIN = 0.5
-"""Ticks by which the part after a span must seem shorter than that of the known run. Not tuned."""
-OTHER_ENDS = 8
-"""Ends of a leg that are kept although they touched a switch that was not wanted. Not tuned."""
-SURVIVAL = 60
-"""Ticks that the ninja must be able to survive after the end of a leg. Not tuned."""
+MIN_GAIN = 0.5  # Ticks by which the part after a span must seem shorter than that of the known run. Not tuned.
+OTHER_ENDS = 8  # Ends of a leg that are kept although they touched a switch that was not wanted. Not tuned.
+SURVIVAL = 60  # Ticks that the ninja must be able to survive after the end of a leg. Not tuned.
 MORE, EXHAUSTED, OUT_OF_NODES = 0, 1, 2  # result of a slice of a search
 
 

@@ -143,10 +143,8 @@ def save_replay(path: Path, replay: Replay) -> None:
     write_atomically(path, write_replay(replay))
 
 
-MAX_SIMPLIFIED_TICKS = 4000
-"""Longer runs keep all their keys: a tick takes some 0.5 ms."""
-_CHOICES = (*range(8), *range(12, 16))
-"""The inputs that a keyboard can make in one tick."""
+MAX_SIMPLIFIED_TICKS = 4000  # longer runs keep all their keys: a tick takes some 0.5 ms
+_CHOICES = (*range(8), *range(12, 16))  # the inputs that a keyboard can make in one tick
 
 
 def without_idle_keys(

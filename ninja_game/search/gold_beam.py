@@ -40,24 +40,17 @@ BEAM_LEGS = (
 )
 """Resolutions of the legs of a pass, in turn. No number below was tuned by an experiment on record."""
 BEAM_TICKS = 150_000
-BEAM_EXTRA = 20_000
-"""Most ticks of a leg; least ticks that it still searches after its first end."""
-EXIT_FACTOR = 10
-"""Factor by which the last leg, to the exit, may be longer."""
+BEAM_EXTRA = 20_000  # most ticks of a leg; least ticks that it still searches after its first end
+EXIT_FACTOR = 10  # factor by which the last leg, to the exit, may be longer
 BEAM_WIDTH = 40
-BEAM_ENDS = 80
-"""Checkpoints of a frontier, and ends of a leg, that are kept."""
+BEAM_ENDS = 80  # checkpoints of a frontier, and ends of a leg, that are kept
 EFFORTS = (1, 4)
 """Factors of the ticks of a leg: the second only if the first found nothing, since far pieces need more."""
-BREADTHS = (3, 6, 3, 6, 10)
-"""Frontiers that are expanded at each depth, pass by pass."""
-SPARE = 2
-"""Frontiers that may replace others whose legs found nothing."""
+BREADTHS = (3, 6, 3, 6, 10)  # frontiers that are expanded at each depth, pass by pass
+SPARE = 2  # frontiers that may replace others whose legs found nothing
 FRONTIERS_KEPT = 10  # frontiers per depth that are kept from pass to pass
-NOISE = 0.4
-"""Share by which the ticks between pieces are changed at random, to get other orders."""
-HOPE = 1.1
-"""A pass ends where the estimated ticks exceed those of the best run by this share."""
+NOISE = 0.4  # share by which the ticks between pieces are changed at random, to get other orders
+HOPE = 1.1  # a pass ends where the estimated ticks exceed those of the best run by this share
 
 
 @kernel

@@ -23,8 +23,7 @@ from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED
 from ninja_game.sim.traces import is_open
 
-_SPACING = 6.0
-"""Px between points. Cell sides (multiples of 24 px) lie on points: blocking these points closes a door."""
+_SPACING = 6.0  # Px between points. Cell sides (multiples of 24 px) lie on points: blocking these points closes a door.
 ACROSS = 133
 _DOWN = 101
 POINTS = ACROSS * _DOWN
@@ -33,8 +32,7 @@ CLEARANCE = 9.0
 """Px; a point is free if this circle around it is. A little less than the ninja's radius, since the ninja slides."""
 
 UNREACHED = 1.0e9  # ticks to go without a known way
-MINE_COST = 12.0
-"""Factor of a step beside a mine: to be avoided, not impossible."""
+MINE_COST = 12.0  # factor of a step beside a mine: to be avoided, not impossible
 
 RING_X = [1.0, 0.866, 0.5, 0.0, -0.5, -0.866, -1.0, -0.866, -0.5, 0.0, 0.5, 0.866]
 RING_Y = [0.0, 0.5, 0.866, 1.0, 0.866, 0.5, 0.0, -0.5, -0.866, -1.0, -0.866, -0.5]
@@ -144,20 +142,15 @@ def points_about(x: float, y: float, radius: float) -> list[int]:
     return sorted(point for point in around if far[point] < radius)
 
 
-DOOR_COST = 40.0
-"""Factor of a step through a closed door, in fields that pretend it can be passed."""
-MAX_BITS = 60
-"""Most switches, of exits and doors, whose states a search distinguishes."""
-FARTHEST = 20_000.0
-"""Ticks that an unreachable place counts in sums."""
-SWITCH_COST = 3.0
-"""Factor of a step beside a switch that is better touched later."""
+DOOR_COST = 40.0  # factor of a step through a closed door, in fields that pretend it can be passed
+MAX_BITS = 60  # most switches, of exits and doors, whose states a search distinguishes
+FARTHEST = 20_000.0  # ticks that an unreachable place counts in sums
+SWITCH_COST = 3.0  # factor of a step beside a switch that is better touched later
 _MOST_AFTER_SWITCH = 5000.0  # most ticks that the way on from a switch counts at it
 _EXIT_SWITCH_TICKS = 30.0  # ticks that an exit's switch costs, besides the ways
 _NEAR = 15.0  # px from an object within which a point counts as touching it
 
-FieldSource = tuple[float, float, float]
-"""Start of a field: place (px) and value there (ticks)."""
+FieldSource = tuple[float, float, float]  # start of a field: place (px) and value there (ticks)
 
 
 class Switchable(NamedTuple):

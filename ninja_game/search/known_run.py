@@ -23,8 +23,7 @@ from ninja_game.sim.world import step
 
 _AHEAD = 128  # ticks by which a moment may be ahead of the known run
 _BEHIND = 24  # ticks by which a moment may be behind the known run
-SLOW = 0.5
-"""Px/tick; the least speed that a known run is given, even where it is slower."""
+SLOW = 0.5  # px/tick; the least speed that a known run is given, even where it is slower
 
 
 class KnownRun(NamedTuple):

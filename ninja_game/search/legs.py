@@ -16,16 +16,12 @@ from ninja_game.search.nodes import StateWords
 
 UNBOUNDED = 1 << 30
 """More gold than any level has, so that a leg cannot end at the exit; also more ticks than any run has."""
-ROLLOUTS = 16
-"""Random runs that test whether the end of a leg can be survived. Not tuned."""
+ROLLOUTS = 16  # Random runs that test whether the end of a leg can be survived. Not tuned.
 FIELDS_KEPT = 400  # fields to single pieces, 53 KB each, before all are discarded
 MASKS_KEPT = 16  # sets of fields to all pieces
 
-Spend = Callable[[int], bool]
-"""Counts ticks that a search has just simulated; returns true if it must end."""
-
-FieldOf = Callable[[int, float, float], DistanceField]
-"""The field of a switch state, for a ninja at (x, y)."""
+Spend = Callable[[int], bool]  # counts ticks that a search has just simulated; returns true if it must end
+FieldOf = Callable[[int, float, float], DistanceField]  # the field of a switch state, for a ninja at (x, y)
 
 
 @dataclass
@@ -186,8 +182,7 @@ def _move_a_segment(tour: list[int], start: _Distances, between: _Distances, end
     return moved
 
 
-_FAILED = 200.0
-"""Least ticks for a way that a leg did not find."""
+_FAILED = 200.0  # least ticks for a way that a leg did not find
 # Legs take longer than distance fields say, which know no run-ups; fitted to gold tours whose figures were not kept.
 SLOWER = 1.4  # factor of the ticks
 TURN = 10.0  # ticks added per piece

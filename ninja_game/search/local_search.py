@@ -128,10 +128,8 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
 
 
 CHECKPOINT = 8  # ticks between the save-states of the current run
-SPARE_TICKS = 64
-"""Ticks by which a current run may be longer than the first run of the local search."""
-LEASH = 90.0
-"""Px; a trial run farther than this from the current run's path is given up."""
+SPARE_TICKS = 64  # ticks by which a current run may be longer than the first run of the local search
+LEASH = 90.0  # px; a trial run farther than this from the current run's path is given up
 
 
 @struct

@@ -17,8 +17,7 @@ from ninja_game.sim.world import step
 
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
 """Modes of the jump key: up; down (a press if it was up); up for one tick, then down (a new press)."""
-FOLLOWED = 3
-"""Mode of an action that follows a known run, from the row in its bits from 16 on."""
+FOLLOWED = 3  # mode of an action that follows a known run, from the row in its bits from 16 on
 MAX_ROWS = 1 << 15  # rows of a known run that fit into an action
 
 

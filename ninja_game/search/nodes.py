@@ -25,11 +25,9 @@ StateWords = NDArray[np.int64]
 Int32s = NDArray[np.int32]
 
 CHUNK = 32  # words in a chunk
-BUCKETS = 1 << 14
-"""Buckets of the open list, by priority: one per tick, two per tick in a search along a run."""
+BUCKETS = 1 << 14  # buckets of the open list, by priority: one per tick, two per tick in a search along a run
 LARGE_STATE = 10_000  # words; the states of all levels of N are smaller
-_MAX_ENDS = 96
-"""Ends of a leg that are kept, with room for those of the last expansion."""
+_MAX_ENDS = 96  # ends of a leg that are kept, with room for those of the last expansion
 
 
 FROM_START, MUTATIONS, ALONG_RUN, PASSES = 6, 7, 8, 9

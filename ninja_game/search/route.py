@@ -40,20 +40,16 @@ ROUTE_LEGS = (
 LEG_NODES = 250_000
 CAREFUL_TRIES = 4
 """Number of first tries of a frontier in which a piece must be survived, as far as random runs can tell."""
-ROUTE_EXTRA = 40_000
-"""Least ticks that a leg continues after its first end, to find others."""
-TRY_PENALTY = 1.5
-"""Pieces of gold that a try counts against a frontier. Not tuned: a guess."""
+ROUTE_EXTRA = 40_000  # least ticks that a leg continues after its first end, to find others
+TRY_PENALTY = 1.5  # Pieces of gold that a try counts against a frontier. Not tuned: a guess.
 STALL_STEPS = 120
 STALL_TICKS = 6_000_000
 """Steps and ticks without another piece of gold after which the route begins again from the start. Not tuned."""
-DOOR_WORTH = 0.5
-"""Pieces of gold that an open door is worth. Not tuned."""
+DOOR_WORTH = 0.5  # Pieces of gold that an open door is worth. Not tuned.
 DOOR_TICKS = 3_000_000
 """Ticks of search that an open door is worth, without gold. Not tuned; with this value 40-1 is solved."""
 ROUTE_WIDTH = 12
-ROUTE_ENDS = 24
-"""Checkpoints of a frontier that are kept, and ends that are enough for a leg."""
+ROUTE_ENDS = 24  # checkpoints of a frontier that are kept, and ends that are enough for a leg
 
 
 class Route:

@@ -31,8 +31,7 @@ from ninja_game.search.nodes import (
 from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
 
 NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
-MAX_SWEEPS = 40
-"""Most sweeps over all links to compute the values for the next search."""
+MAX_SWEEPS = 40  # most sweeps over all links to compute the values for the next search
 
 
 class Search:

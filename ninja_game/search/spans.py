@@ -21,11 +21,8 @@ from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_LOCAL_TICKS, SLIC
 from ninja_game.sim.inputs import with_press_bits
 
 NODES = 300_000
-SPAN_SLICE = 500_000
-"""Ticks between two looks at the clock."""
-
-LENGTHS = (40, 60, 90, 150)
-"""Ticks of a span. Not tuned, but widely spread."""
+SPAN_SLICE = 500_000  # ticks between two looks at the clock
+LENGTHS = (40, 60, 90, 150)  # Ticks of a span. Not tuned, but widely spread.
 MIN_DELAY_FACTOR, MAX_DELAY_FACTOR = 0.5, 6.0
 """Factor of ``max_delay``: greater while searches are exhausted early, smaller while they are not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000

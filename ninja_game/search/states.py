@@ -18,11 +18,9 @@ from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 from ninja_game.sim.traces import is_open
 
 MIX = 0x2545F4914F6CDD1D  # odd multiplier that spreads the bits of a key (the one of xorshift64*)
-MAX_SWITCH_STATES = 512
-"""Number of switch states that are distinguished: nine bits of a key."""
+MAX_SWITCH_STATES = 512  # number of switch states that are distinguished: nine bits of a key
 JUMP_PART = 11  # ticks of a jump that count as the same state
-NOT_MADE, WANTED = -1.0, -2.0
-"""Value of a field at point 0, outside the world, until the field is made."""
+NOT_MADE, WANTED = -1.0, -2.0  # value of a field at point 0, outside the world, until the field is made
 
 
 class Goal(NamedTuple):

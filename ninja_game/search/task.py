@@ -152,10 +152,8 @@ class SharedProgress:
         return is_late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
 
 
-WORK_PER_SECOND = 6_000_000
-"""Expected work of one thread; plans use this number, never the clock."""
-SEARCH_COST = 2.0
-"""Ticks of a local search that a tick of a search costs: its tables and save-states double the time."""
+WORK_PER_SECOND = 6_000_000  # expected work of one thread; plans use this number, never the clock
+SEARCH_COST = 2.0  # ticks of a local search that a tick of a search costs: its tables and save-states double the time
 
 FIRST_RUN_SEARCHES = (
     (Resolution(), 8_000_000),
@@ -195,14 +193,11 @@ OTHER_ROUTE_TURNS, GIVEN_ROUTE_TURNS = 4, 8
 The second was tuned on twelve speedruns, 60 s each, 4 against 8: 7 and 2 ticks more on two, 1 less on one.
 """
 
-GOLD_BEAM_TICKS = 12_000_000
-"""Ticks of beam search before a run with gold gets a local search. Not tuned."""
+GOLD_BEAM_TICKS = 12_000_000  # Ticks of beam search before a run with gold gets a local search. Not tuned.
 
 SLICE = 1_000_000  # ticks between two looks at the clock
-SHORT_LOCAL_TICKS = 3_000_000
-"""Ticks of the local search from a run that the search of a span gave."""
-COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
-"""Temperatures of a local search, ticks, in turn. Not tuned."""
+SHORT_LOCAL_TICKS = 3_000_000  # ticks of the local search from a run that the search of a span gave
+COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)  # Temperatures of a local search, ticks, in turn. Not tuned.
 
 
 @dataclass(frozen=True)

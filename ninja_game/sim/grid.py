@@ -10,8 +10,7 @@ from ninja_game.sim.schema.world_fields import World
 
 Point = tuple[float, float]  # x and y: px of the world or of a screen, or parts of cells
 
-Cell = tuple[int, int]
-"""Column 1…31, row 1…23; 0 and 32, 24 are the border."""
+Cell = tuple[int, int]  # column 1…31, row 1…23; 0 and 32, 24 are the border
 
 
 @fast

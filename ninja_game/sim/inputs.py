@@ -23,8 +23,7 @@ class Input(IntFlag):
 KEY_LEFT, KEY_RIGHT, JUMP_HELD, JUMP_PRESSED = (int(key) for key in Input)
 """The flags of ``Input`` as plain numbers: rules that use them can be compiled."""
 
-MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
-"""The three keys, by name."""
+MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))  # the three keys, by name
 
 ALL_KEYS = KEY_LEFT + KEY_RIGHT + JUMP_HELD + JUMP_PRESSED
 KEYS_DOWN = KEY_LEFT + KEY_RIGHT + JUMP_HELD
@@ -60,8 +59,7 @@ def fit_inputs(inputs: bytes, ticks: int) -> bytes:
     return inputs[:ticks].ljust(ticks, b"\0")
 
 
-MAX_DEMO_TICKS = 25_193
-"""The game stops recording at this length, ticks."""
+MAX_DEMO_TICKS = 25_193  # the game stops recording at this length, ticks
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from ninja_game.sim import rules
 from ninja_game.sim.schema import object_fields as fields
 
 GOLD, BOUNCE_BLOCK, LAUNCH_PAD, TURRET, FLOOR_GUARD, NINJA, DRONE = range(7)
-ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)
-"""Numbers of the level string (objects.md §5)."""
+ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)  # numbers of the level string (objects.md §5)
 
 NO_KIND, SWITCH, INERT = -1, -2, -3
 """A record that creates nothing, an exit's switch, an object that does nothing. No record can name them."""
@@ -71,7 +70,6 @@ KIND_NAMES = tuple(kind.name for kind in KINDS if kind.number >= 0)
 VALUE_COUNTS = tuple(kind.value_count for kind in KINDS if kind.number >= 0)
 """``value_count`` of the kinds of the level string, by number."""
 
-ENEMIES = tuple(kind.number for kind in KINDS if kind.killer and kind.moves)
-"""Kinds that move or shoot, and kill."""
+ENEMIES = tuple(kind.number for kind in KINDS if kind.killer and kind.moves)  # kinds that move or shoot, and kill
 MOVING_ENEMIES = tuple(kind.number for kind in KINDS if kind.by_touch and kind.moves)
 """The enemies that kill by touch, not only by shots; for a launcher the touch is that of its rocket."""

@@ -125,13 +125,13 @@ class BesideRun:
 class RecoveredRun:
     """The run of a crashed session. ``opened``: its first state; ``tracks``: after each edit.
 
-    ``branches``: their last state; ``said``: the first line of the journal ``file``; ``beside``: the runs beside it.
+    ``branches``: their last state; ``head``: the first line of the journal ``file``; ``beside``: the runs beside it.
     """
 
     opened: OpenedRun
     tracks: tuple[InputTrack, ...]
     branches: Branches
-    said: dict[str, Any]
+    head: dict[str, Any]
     file: Path
     beside: tuple[BesideRun, ...] = ()
 

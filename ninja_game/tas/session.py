@@ -294,7 +294,7 @@ class TasSession:
 
         Raises FileError if another window has done so already.
         """
-        journal = Journal(run.file.parent.parent, run.said, run.file)
+        journal = Journal(run.file.parent.parent, run.head, run.file)
         self.journal.close()
         self.journal = journal
         for track in run.tracks:

@@ -95,7 +95,7 @@ class Timeline:
         return self._worlds.name
 
     def __len__(self) -> int:
-        """Ticks to simulate: those with inputs, and AFTERMATH."""
+        """Ticks to simulate: those with inputs, and TICKS_BEHIND_END."""
         return len(self.inputs) + TICKS_BEHIND_END
 
     @property

@@ -152,14 +152,12 @@ class TasPart(Pane):
 
 
 MIN_LEFT, MIN_LEVEL, MIN_TABS, MIN_ROLL = 424.0, 200.0, 150.0, 350.0
-MAX_ROLL, USUAL_TABS = 460.0, 203.0
-"""Default sizes, logical px."""
+MAX_ROLL, USUAL_TABS = 460.0, 203.0  # default sizes, logical px
 
 _HEAD, _FOOT, _STRIP = 26.0, 21.0, 18.0
 _EDGE, _GAP, _THIN = 6.0, 3.0, 2.0
 _ABOVE, _BELOW = _HEAD + _THIN, _FOOT + _GAP
-_BETWEEN = _GAP + _STRIP + _THIN
-"""Distance between the level and the tabs."""
+_BETWEEN = _GAP + _STRIP + _THIN  # distance between the level and the tabs
 
 
 class TasLayout(NamedTuple):

@@ -91,7 +91,7 @@ def _read_glyphs() -> dict[str, tuple[float, str]]:
 
 
 _STROKES = _read_glyphs()
-GLYPHS = {name: glyph for name, glyph in _STROKES.items() if not unicodedata.combining(name)}
+GLYPHS = {name: drawn for name, drawn in _STROKES.items() if not unicodedata.combining(name)}
 MARKS = {name: path for name, (_, path) in _STROKES.items() if unicodedata.combining(name)}
 ABOVE = 230  # the combining class of marks above a letter
 

@@ -23,8 +23,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.settings import SPECS
 from ninja_game.ui.input.keys import scancode_named
 
-PHONE_TEXT = 150
-"""Size of texts on a phone, percent: 9 px letters in a picture at half its usual width."""
+PHONE_TEXT = 150  # size of texts on a phone, percent: 9 px letters in a picture at half its usual width
 
 
 class PageServices:

@@ -96,13 +96,13 @@ def test_a_copied_environment_goes_on_alike_and_alone(kind: str, again: Again, m
 
     def steps(of: Any, count: int) -> list[bytes]:
         """Everything that is told of some steps; a world that has ended begins a new episode."""
-        told: list[Any] = []
+        returned: list[Any] = []
         for number in range(count):
             observed, *rest = of.step(2 if kind == "single" else [2, 2, number % 6])
-            told += [*observed.values(), *map(str, rest), of.worlds.events, of.worlds.levels_now]
+            returned += [*observed.values(), *map(str, rest), of.worlds.events, of.worlds.levels_now]
             if kind == "single" and (rest[1] or rest[2]):
-                told += of.reset()[0].values()
-        return [np.asarray(value).tobytes() for value in told]
+                returned += of.reset()[0].values()
+        return [np.asarray(value).tobytes() for value in returned]
 
     steps(env, 15)
     other = again(env)

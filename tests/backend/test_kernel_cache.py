@@ -75,7 +75,7 @@ def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path, run: Run
 
 @needs_numba
 @pytest.mark.parametrize("damage", the_rest_is_slow(["changed", "empty", "truncated", "garbage"], 1))
-def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path, run: Run) -> None:
+def test_damaged_code_is_compiled_again_without_a_word(damage: str, tmp_path: Path, run: Run) -> None:
     run(tmp_path)
     (file,) = tmp_path.iterdir()
     code = file.read_bytes()
@@ -117,7 +117,7 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path, 
 @pytest.mark.slow
 @needs_numba
 @pytest.mark.parametrize(
-    "change, said",
+    "change, warning_text",
     [
         ("del numba.core.compiler.CompileResult._rebuild", "this Numba has no _rebuild"),
         ("del numba.core.compiler.CompileResult._reduce", "this Numba has no _reduce"),
@@ -125,12 +125,12 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path, 
         ("numba.core.compiler.CompileResult._reduce = lambda self, more: 0", "cannot be kept (TypeError"),
     ],
 )
-def test_another_numba_compiles_without_a_cache(change: str, said: str, tmp_path: Path, run: Run) -> None:
+def test_another_numba_compiles_without_a_cache(change: str, warning_text: str, tmp_path: Path, run: Run) -> None:
     """Without a private part that only the cache needs, or with another one of its name."""
     first = f"from ninja_game.backend.numba_import import *; numba = import_numba(); {change}"
     out, errors = run(tmp_path, first=first)
-    assert out == "compiles\n7\n" or (out == "7\n" and "has no" in said)
-    assert said in errors
+    assert out == "compiles\n7\n" or (out == "7\n" and "has no" in warning_text)
+    assert warning_text in errors
     assert len(errors.splitlines()) == 1
 
 

@@ -118,7 +118,7 @@ def test_a_run_that_goes_on_keeps_its_length_there_and_back(tmp_path: Path) -> N
     assert first.read_text() == second.read_text()
 
 
-def test_a_replay_edited_by_hand_is_recorded_anew(tmp_path: Path) -> None:
+def test_a_replay_edited_by_hand_is_recorded_again(tmp_path: Path) -> None:
     source = write_records(tmp_path / "tas.txt", ("Walk", WALK, running(60)))
     edited, new = tmp_path / "edited.replay.txt", tmp_path / "new.replay.txt"
     assert convert(source, edited).exit_code == 0
@@ -185,7 +185,7 @@ def test_input_is_never_replaced_and_other_files_only_by_force(tmp_path: Path) -
     assert target.read_text().startswith("$Tiny#me##")
 
 
-def test_what_the_other_format_cannot_hold_is_told(tmp_path: Path) -> None:
+def test_what_the_other_format_cannot_hold_is_reported(tmp_path: Path) -> None:
     source = tmp_path / "mine.txt"
     source.write_text(TINY)
     assert (

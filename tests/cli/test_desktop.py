@@ -63,8 +63,8 @@ def test_a_system_knows_levels_and_replays(name: str, kind: str, data: Path, tmp
     assert CliRunner().invoke(cli, ["desktop"]).exit_code == 0
     (tmp_path / name).write_text("text", "utf-8")
     words = ["gio", "info", "-a", "standard::content-type", str(tmp_path / name)]
-    said = subprocess.run(words, capture_output=True, text=True, check=True, env=dict(os.environ))
-    assert said.stdout.split()[-1] == kind
+    output = subprocess.run(words, capture_output=True, text=True, check=True, env=dict(os.environ))
+    assert output.stdout.split()[-1] == kind
 
 
 def test_where_there_is_no_such_menu_it_says_so(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -169,8 +169,8 @@ def test_both_memories_print_the_same(runs: Path) -> None:
 
 
 def test_what_is_honoured_is_written_down(root: Path) -> None:
-    said = (root / "docs" / "verification.md").read_text("utf-8")
-    assert all(f"`{name}`" in said for name in (*HONOURED, "NINJA_GAME_CHECKED"))
+    page = (root / "docs" / "verification.md").read_text("utf-8")
+    assert all(f"`{name}`" in page for name in (*HONOURED, "NINJA_GAME_CHECKED"))
 
 
 def test_numba_is_imported_in_one_place(root: Path) -> None:

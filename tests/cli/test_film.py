@@ -187,11 +187,11 @@ def test_splits_end_before_the_keys_and_the_newest_is_not_cut(
     assert shown[-1].endswith(f"; 4 {'x' * 28}")
 
 
-def test_a_large_gif_is_told(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    said = "as .mp4 it would be smaller"
-    assert said not in film_of(replay, "--to", 3, "-o", tmp_path / "a.gif").output
+def test_a_large_gif_is_reported(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    hint = "as .mp4 it would be smaller"
+    assert hint not in film_of(replay, "--to", 3, "-o", tmp_path / "a.gif").output
     monkeypatch.setattr("ninja_game.cli.terminal._LARGE", 9)
-    assert said in film_of(replay, "--to", 3, "-o", tmp_path / "b.gif").output
+    assert hint in film_of(replay, "--to", 3, "-o", tmp_path / "b.gif").output
 
 
 def test_names_of_runs_are_not_cut_within_a_word(tmp_path: Path) -> None:

@@ -114,7 +114,7 @@ def test_a_recording_without_its_level_is_shown_on_a_given_one(tmp_path: Path) -
     assert "recording: to tick 25" in result.stdout
 
 
-def test_a_cut_demo_is_told(tmp_path: Path) -> None:
+def test_a_cut_demo_is_reported(tmp_path: Path) -> None:
     demo = tmp_path / "demo.txt"
     demo.write_text(f"$Walk###{WALK}#702:{'0|' * 98}0#")
     assert "truncated: 9 ticks of inputs are missing" in info(demo).stdout

@@ -60,8 +60,8 @@ def test_help_lists_every_command() -> None:
 def test_a_start_imports_only_what_it_needs(words: str, most: int, without: str) -> None:
     """Modules are counted, since time depends on the machine; what it takes is in docs/performance.md."""
     code = "import atexit, sys, ninja_game.cli.main as m; atexit.register(lambda: print(*sys.modules)); m.main()"
-    said = subprocess.check_output([sys.executable, "-c", code, *words.split()], text=True)
-    loaded = said.splitlines()[-1].split()
+    printed = subprocess.check_output([sys.executable, "-c", code, *words.split()], text=True)
+    loaded = printed.splitlines()[-1].split()
     assert "click" in loaded
     assert set(loaded).isdisjoint(without.split())
     assert len(loaded) <= most
@@ -70,8 +70,8 @@ def test_a_start_imports_only_what_it_needs(words: str, most: int, without: str)
 def test_the_first_picture_comes_before_the_command_line_is_loaded() -> None:
     code = "import sys, pygame; pygame.display.flip = lambda: sys.exit(print(*sys.modules))\n"
     code += "import ninja_game.__main__ as m; m.main()"
-    said = subprocess.check_output([sys.executable, "-c", code, "play"], text=True)
-    loaded = said.splitlines()[-1].split()
+    printed = subprocess.check_output([sys.executable, "-c", code, "play"], text=True)
+    loaded = printed.splitlines()[-1].split()
     assert set(loaded).isdisjoint(("click", "ninja_game.cli", "ninja_game.simulation"))
     assert len(loaded) <= 230
 

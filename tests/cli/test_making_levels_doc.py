@@ -51,8 +51,10 @@ def test_ten_minutes_lead_from_nothing_to_a_certified_shared_pack(
     (tmp_path / "my-pack").mkdir()
     (tmp_path / "my-pack" / "pack.toml").write_text(blocks("toml")[0])
     (tmp_path / "my-pack" / LEVEL).write_text(blocks("level")[0])
-    told = [done(line.replace("--seconds 20", "--seconds 2")) for block in blocks("sh") for line in block.splitlines()]
-    assert sum("nothing odd" in text for text in told) == 2
+    printed = [
+        done(line.replace("--seconds 20", "--seconds 2")) for block in blocks("sh") for line in block.splitlines()
+    ]
+    assert sum("nothing odd" in text for text in printed) == 2
     for path in ("my-pack", "my-pack.zip"):
         pack = Pack(Path(path))
         assert [len(levels) for levels in pack.episodes.values()] == [1]
@@ -69,5 +71,7 @@ def test_example_of_an_index_is_right_and_shows_every_entry() -> None:
 
 
 def test_margins_of_the_medals_are_those_of_the_game() -> None:
-    told = {medal: float(factor) - 1 for medal, factor in re.findall(r"^\| (\w+) \| ([\d.]+) T \|", DOC, re.MULTILINE)}
-    assert told == pytest.approx(MARGINS)
+    factors = {
+        medal: float(factor) - 1 for medal, factor in re.findall(r"^\| (\w+) \| ([\d.]+) T \|", DOC, re.MULTILINE)
+    }
+    assert factors == pytest.approx(MARGINS)

@@ -16,11 +16,8 @@ from tests.support.warm_start import WarmStart
 
 pty = pytest.importorskip("pty", reason="there are no pseudo-terminals")
 
-NAME = "a\x1b]0;owned\x07\x9b2J\u202e\x1b[8m"
-"""A record's name; it holds no line end."""
-
-HOSTILE = f"{NAME}\rb"
-"""A name of a file or a replay."""
+NAME = "a\x1b]0;owned\x07\x9b2J\u202e\x1b[8m"  # a record's name; it holds no line end
+HOSTILE = f"{NAME}\rb"  # a name of a file or a replay
 
 OWN = re.compile(r"\r?\n|\t|\x1b\[[0-9;]*m|\r|\x1b\[(?:\?25[hl]|1A|2K)")
 """What our own output does on a terminal; the names must not, so `\\x1b[8m` is looked for apart."""

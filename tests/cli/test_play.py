@@ -91,5 +91,5 @@ def test_no_display_is_an_error_in_words(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_the_lab_is_offered_with_all_its_figures() -> None:
     """The command names them itself, since its help imports no lab."""
     assert tuple(FIGURES) == windows.FIGURE_NAMES
-    said = CliRunner().invoke(cli, ["lab", "--help"]).output.split("Figures:")[1]
-    assert re.findall(r"[\w-]+", said) == list(FIGURES)
+    listed = CliRunner().invoke(cli, ["lab", "--help"]).output.split("Figures:")[1]
+    assert re.findall(r"[\w-]+", listed) == list(FIGURES)

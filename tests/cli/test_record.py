@@ -51,7 +51,7 @@ def test_record_never_replaces_what_a_person_wrote(idea: Path) -> None:
 
 
 @pytest.mark.parametrize("header", ["rules", "body"])
-def test_a_replay_that_lost_a_claim_is_recorded_anew_without_the_others(idea: Path, header: str) -> None:
+def test_a_replay_that_lost_a_claim_is_recorded_again_without_the_others(idea: Path, header: str) -> None:
     called("record", idea, "-o", "run.replay.txt")
     idea.write_text(re.sub(f"^{header}:.*\n", "", Path("run.replay.txt").read_text(), flags=re.MULTILINE))
     result = called("record", idea)
@@ -71,7 +71,7 @@ def test_a_replay_without_a_name_gets_that_of_the_level_inside(idea: Path) -> No
     assert (recording.replay.name, recording.replay.level_name) == ("Under the Hill", "Under the Hill")
 
 
-def test_a_replay_with_wrong_claims_is_recorded_anew(idea: Path) -> None:
+def test_a_replay_with_wrong_claims_is_recorded_again(idea: Path) -> None:
     called("record", idea, "-o", "run.replay.txt")
     edited = (
         Path("run.replay.txt").read_text().replace("R*24", "R*10 .*3 R*60").replace("final-tick: 23", "final-tick: 99")
@@ -83,7 +83,7 @@ def test_a_replay_with_wrong_claims_is_recorded_anew(idea: Path) -> None:
     assert parse_replay(Path("new.replay.txt").read_text()).final_tick > WALK_END
 
 
-def test_a_replay_is_recorded_anew_on_a_changed_level(idea: Path) -> None:
+def test_a_replay_is_recorded_again_on_a_changed_level(idea: Path) -> None:
     called("record", idea, "-o", "run.replay.txt")
     changed = idea.parent / "changed.txt"
     changed.write_text(WALK.replace("115,566", "115,500"))

@@ -30,8 +30,7 @@ if not compiled_available():
 
 LEDGE = "0" * 23 * 8 + ("0" * 20 + "111") * 2 + "0" * 23 * 21 + "|5^100,566!11^300,566,228,494"
 CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
-TICKS = "100000"
-"""Of a search: enough for each of these levels."""
+TICKS = "100000"  # of a search: enough for each of these levels
 
 WALLED_GOLD = "0" * 23 * 20 + "1" * 23 + "0" * 23 * 10 + "|5^60,566!11^400,566,330,566!0^90,566!0^700,300"
 
@@ -168,7 +167,7 @@ def test_improve_goes_on_from_its_best_run_and_says_so_in_its_log(tmp_path: Path
 
 
 @pytest.mark.parametrize("text", ["my notes\n", "", "# seconds spent, and what improve found\nmine\n"])
-def test_a_file_that_is_no_log_of_improve_stays_as_it_is(tmp_path: Path, text: str) -> None:
+def test_a_file_that_is_not_a_log_of_improve_stays_as_it_is(tmp_path: Path, text: str) -> None:
     slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, running(24)))
     log = tmp_path / "night.log"
     log.write_text(text)
@@ -207,8 +206,8 @@ def test_runs_that_are_kept_are_not_searched_again(tmp_path: Path) -> None:
     files = sorted(runs.iterdir())
     assert [path.name for path in files] == ["level.exit.replay.txt", "level.gold.replay.txt"]
     before = [path.read_bytes() for path in files]
-    said = check_both(level, runs)
-    assert said.count("gold  kept") == 2
+    report_text = check_both(level, runs)
+    assert report_text.count("gold  kept") == 2
     assert [path.read_bytes() for path in files] == before
 
 
@@ -217,11 +216,11 @@ def test_a_run_that_is_kept_is_shortened_where_that_is_asked_for(tmp_path: Path)
     slow = named_replay(verified_run(parse_level_string(WALK), bytes([0] * 20 + [2] * 60)), "check")
     runs.mkdir()
     save_replay(runs / "level.exit.replay.txt", slow)
-    said = command("check", level, "--replays", runs).stdout
-    assert f"{WALK_END + 20} ticks" in said
-    said = command("check", level, "--ticks", TICKS, "--jobs", "1", "--replays", runs, "--improve").stdout
-    assert f"{WALK_END} ticks" in said
-    assert "shortened" in said
+    report_text = command("check", level, "--replays", runs).stdout
+    assert f"{WALK_END + 20} ticks" in report_text
+    report_text = command("check", level, "--ticks", TICKS, "--jobs", "1", "--replays", runs, "--improve").stdout
+    assert f"{WALK_END} ticks" in report_text
+    assert "shortened" in report_text
     assert load_replays(runs / "level.exit.replay.txt")[0].ticks == WALK_END + 1
 
 
@@ -248,7 +247,7 @@ def test_a_damaged_replay_is_named_and_not_replaced(tmp_path: Path) -> None:
     assert (runs / "level.exit.replay.txt").read_text() == "noise"
 
 
-def test_missing_gold_is_told_and_does_not_fail_the_check(tmp_path: Path) -> None:
+def test_missing_gold_is_reported_and_does_not_fail_the_check(tmp_path: Path) -> None:
     level = level_file(tmp_path, WALLED_GOLD)
     result = command("check", level, "--gold", "both", "--ticks", TICKS, "--jobs", "1", "--json")
     assert result.exit_code == 0
@@ -322,7 +321,7 @@ def test_a_certificate_names_its_level_and_who_made_it(tmp_path: Path) -> None:
     assert (found.name, found.author) == ("A walk", "Ann")
 
 
-def test_a_locked_door_that_the_run_does_not_open_is_told(tmp_path: Path) -> None:
+def test_a_locked_door_that_the_run_does_not_open_is_reported(tmp_path: Path) -> None:
     level = level_file(tmp_path, WALK + "!9^400,100,0,0,20,14,1,0,0")
     result = command("check", level, "--ticks", TICKS, "--jobs", "1")
     assert "warning: locked door at 20,14 (object 3): it is never needed: the certified run passes" in result.stdout
@@ -360,12 +359,12 @@ def test_the_line_of_progress_fits_eighty_columns() -> None:
     assert text.split()[:2] == ["shortening", "best"]
 
 
-def test_progress_is_told_now_and_then_where_nobody_watches(
+def test_progress_is_reported_now_and_then_where_nobody_watches(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(progress, "LONG", 0.001)
     monkeypatch.setattr(progress, "_EVERY", 0.001)
-    told = []
+    reports = []
 
     def items() -> Iterator[int]:
         for item in range(2):
@@ -373,7 +372,7 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
             seen = ""
             while f"s: {item} run{'s' * (item != 1)} done\n" not in seen:
                 seen += capsys.readouterr().err
-            told.append(item)
+            reports.append(item)
             yield item
 
-    assert list(progress.with_progress(items(), "run")) == told == [0, 1]
+    assert list(progress.with_progress(items(), "run")) == reports == [0, 1]

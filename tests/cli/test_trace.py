@@ -99,7 +99,7 @@ def test_difference_names_tick_thing_field_and_section(tmp_path: Path) -> None:
     assert "walk: tick 3: object 2 (gold): x is 115.0, expected 116.0" in result.stdout
 
 
-def test_section_of_the_specification_is_told(two: Path, tmp_path: Path) -> None:
+def test_section_of_the_specification_is_reported(two: Path, tmp_path: Path) -> None:
     path = tmp_path / "run.csv"
     assert trace(two, "-o", path).exit_code == 0
     scene = tmp_path / "scene.txt"
@@ -127,7 +127,7 @@ def test_recordings_are_not_written_over(name: str, two: Path, tmp_path: Path) -
     assert source.read_bytes() == two.read_bytes()
 
 
-def test_a_name_that_is_no_text_is_written_as_far_as_it_can_be(tmp_path: Path) -> None:
+def test_a_name_that_is_not_text_is_written_as_far_as_it_can_be(tmp_path: Path) -> None:
     replay, table = tmp_path / "a.replay.txt", tmp_path / "run.csv"
     replay.write_text(replay_of_walk(name="a\0\ud800,b"))
     assert trace(replay, "-o", table).exit_code == 0

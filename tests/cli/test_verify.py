@@ -143,7 +143,7 @@ def test_level_without_ninja_is_named_with_its_record(tmp_path: Path) -> None:
     assert f"ninja-game: {path}:2: record 1: " in result.stderr
 
 
-def test_levels_in_a_folder_of_recordings_are_passed_by(walk: Path, tmp_path: Path) -> None:
+def test_levels_in_a_folder_of_recordings_are_skipped(walk: Path, tmp_path: Path) -> None:
     write_records(tmp_path / "levels.txt", ("Only a level", WALK, ""))
     assert verify(tmp_path).exit_code == 0
     assert verify(tmp_path / "levels.txt").exit_code == 2

@@ -54,7 +54,7 @@ def test_resuming_tells_the_same(archive: Path, tmp_path: Path) -> None:
     assert len(log.read_text().splitlines()) == 1 + 3
 
 
-def test_a_file_that_is_no_journal_is_left_alone(archive: Path, tmp_path: Path) -> None:
+def test_a_file_that_is_not_a_journal_is_left_alone(archive: Path, tmp_path: Path) -> None:
     (tmp_path / "notes").write_text("mine\n")
     result = verify(archive, "--resume", tmp_path / "notes")
     assert result.exit_code == 2

@@ -200,11 +200,11 @@ def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tm
     kept = other.stat().st_mtime_ns
     accept_missing_gold(pack)
     certificate.unlink()
-    said: list[str] = []
-    ready = prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
+    progress_lines: list[str] = []
+    ready = prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: progress_lines.append(text))
     assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
-    assert "Measuring medal times: 8 of 8 levels" in said
+    assert "Measuring medal times: 8 of 8 levels" in progress_lines
     # Whether all gold is found in a second depends on the machine.
     findings = [finding for finding in ready.findings if finding.code != "no-gold-run"]
     assert (findings, ready.notes, ready.link[:6]) == ([], [], "#pack=")
@@ -230,7 +230,7 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
             packs.accept(pack, file, "no-gold-run", "not here")
     for name in (first, second):
         (pack / f"certificates/{name}.exit.replay.txt").unlink()
-    now, said = 0.0, list[tuple[str, float | None]]()
+    now, progress_lines = 0.0, list[tuple[str, float | None]]()
 
     def certify_all(
         levels: list[NamedLevel], *_: object, report: Callable[[str, Progress], object], **__: object
@@ -245,9 +245,9 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
     monkeypatch.setattr("ninja_game.search.certify.certify_all", certify_all)
     monkeypatch.setattr("ninja_game.search.solve.compile_solver", lambda: None)
     monkeypatch.setattr(ready_pack, "monotonic", lambda: now)
-    ready_pack._certify(Pack(pack), pack, 20.0, 1, lambda text, share: said.append((text, share)), {})
+    ready_pack._certify(Pack(pack), pack, 20.0, 1, lambda text, share: progress_lines.append((text, share)), {})
     first, second = "level 1 of 2, First Steps (exit and all gold)", "level 2 of 2, Mind the Gap (exit and all gold)"
-    assert [text for text, _ in said if "so far" in text] == [
+    assert [text for text, _ in progress_lines if "so far" in text] == [
         f"Certifying {first}: 0 s so far, about 80 s left",
         f"Certifying {first}: 15 s so far, about 65 s left",
         f"Certifying {first}: 30 s so far, about 50 s left",
@@ -257,7 +257,7 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
         f"Certifying {second}: 30 s so far, about 12 s left",
         f"Certifying {second}: 45 s so far, nearly done",
     ]
-    shares = [share for _, share in said if share is not None]
+    shares = [share for _, share in progress_lines if share is not None]
     assert shares == sorted(shares)
 
 
@@ -306,8 +306,8 @@ def test_what_keeps_a_level_from_a_certificate_is_a_problem_of_the_pack(pack: Pa
     shutil.copy(pack / RUN, pack / RUN.replace("exit", "gold"))
     obstacles: Obstacles = {}
     ready = prepare_pack(pack, seconds=4.0, jobs=1, say=_quiet, obstacles=obstacles)
-    told = "the search found no run to the exit: exit at 30,18 (object 6): the solver never touched its switch"
-    assert [finding.text for finding in ready.findings if finding.code == "certificate"] == [told], "not of gold too"
+    reason = "the search found no run to the exit: exit at 30,18 (object 6): the solver never touched its switch"
+    assert [finding.text for finding in ready.findings if finding.code == "certificate"] == [reason], "not of gold too"
     level = Pack(pack).levels[FIRST].level
     assert list(obstacles) == [(level, "exit"), (level, "gold")]
 
@@ -357,12 +357,14 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr("ninja_game.search.certify.certify_all", search)
     monkeypatch.setattr("ninja_game.search.solve.is_solver_compiled", lambda: False)
-    said: list[str] = []
-    prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: said.append(text))
-    assert said[0].startswith("Compiling the solver, the first time on a machine a minute or more. You can go on")
-    assert said[1] == "Starting the search", "compiled once, it takes its time too"
-    assert said[2] == "Certifying level 1 of 2, First Steps (exit and all gold): 0 s so far, about 3 s left"
-    assert {"Certifying: 1 of 2 levels done", "Certifying: 2 of 2 levels done"} < {*said}
+    progress_lines: list[str] = []
+    prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: progress_lines.append(text))
+    assert progress_lines[0].startswith(
+        "Compiling the solver, the first time on a machine a minute or more. You can go on"
+    )
+    assert progress_lines[1] == "Starting the search", "compiled once, it takes its time too"
+    assert progress_lines[2] == "Certifying level 1 of 2, First Steps (exit and all gold): 0 s so far, about 3 s left"
+    assert {"Certifying: 1 of 2 levels done", "Certifying: 2 of 2 levels done"} < {*progress_lines}
 
 
 def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, searched: list[str]) -> None:

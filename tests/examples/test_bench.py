@@ -157,7 +157,7 @@ def test_files_that_are_no_results_are_named(tmp_path: Path, content: str) -> No
     assert (result.exit_code, "odd.json" in result.output, "Traceback" in result.output) == (1, True, False)
 
 
-def test_other_formats_and_missing_runs_are_told(tmp_path: Path) -> None:
+def test_other_formats_and_missing_runs_are_reported(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="no results"):
         bench_report.load_results(tmp_path)
     path = written(tmp_path, "ppo", 0, 0.5)

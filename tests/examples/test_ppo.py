@@ -133,10 +133,10 @@ def test_a_training_that_is_stopped_leaves_what_it_has_learned(tmp_path: Path) -
     assert load_policy(output).training["curve"]
 
 
-def test_compiling_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[Callable[[], None]] = []
-    monkeypatch.setattr(agents, "before_compiling", told)
-    monkeypatch.setattr(ppo, "train", lambda *_, **__: [tell() for tell in told])
+def test_compiling_is_announced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    callbacks: list[Callable[[], None]] = []
+    monkeypatch.setattr(agents, "before_compiling", callbacks)
+    monkeypatch.setattr(ppo, "train", lambda *_, **__: [tell() for tell in callbacks])
     result = CliRunner().invoke(main, ["-o", str(tmp_path / "agent.npz")])
     assert "it takes a minute or two" in result.stderr, result.output
 

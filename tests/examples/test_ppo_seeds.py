@@ -57,9 +57,9 @@ train("bench:train:0-9", 512, [1, 2], 2, Path(), settings)
 
 def run(program: str, folder: Path) -> None:
     """In a process of its own: one with threads is not copied."""
-    told = {"PYTHONPATH": str(ROOT), "JAX_PLATFORMS": "cpu"}
+    environment = {"PYTHONPATH": str(ROOT), "JAX_PLATFORMS": "cpu"}
     words = [sys.executable, "-c", program]
-    subprocess.run(words, cwd=folder, check=True, timeout=LONGEST, env=os.environ | told)
+    subprocess.run(words, cwd=folder, check=True, timeout=LONGEST, env=os.environ | environment)
 
 
 @fast
@@ -81,7 +81,7 @@ def test_each_seed_learns_for_itself(tmp_path: Path) -> None:
     assert all(np.isfinite(weights).all() for weights, _ in last.layers)
 
 
-def test_what_cannot_be_is_told(tmp_path: Path) -> None:
+def test_what_cannot_be_is_reported(tmp_path: Path) -> None:
     for words, expected in (
         (["-o", str(tmp_path)], "exists"),
         (["--each", "3", "-o", str(tmp_path / "new")], "divisor"),

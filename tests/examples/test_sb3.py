@@ -25,16 +25,16 @@ def test_it_shows_what_the_vector_shows() -> None:
     for row in np.random.default_rng(0).integers(6, size=(40, 3)):
         kept = seen
         seen, rewards, terminated, truncated, infos = ours.step(row)
-        shown, paid, ended, told = theirs.step(row)
+        shown, paid, ended, step_infos = theirs.step(row)
         # SB3 stores the observations of the step before only now.
         assert np.array_equal(before, kept)
         assert np.array_equal(shown, seen)
         assert np.array_equal(paid, rewards)
         assert np.array_equal(ended, terminated | truncated)
         for world in np.flatnonzero(ended):
-            assert np.array_equal(told[world]["terminal_observation"], infos["final_obs"][world])
-            assert told[world]["TimeLimit.truncated"] == truncated[world]
-            assert told[world]["episode"]["l"] > 0
+            assert np.array_equal(step_infos[world]["terminal_observation"], infos["final_obs"][world])
+            assert step_infos[world]["TimeLimit.truncated"] == truncated[world]
+            assert step_infos[world]["episode"]["l"] > 0
         before = shown
 
 

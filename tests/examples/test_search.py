@@ -13,8 +13,7 @@ from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
 
-SHUT_IN = parse_level("0" * 713 + "|5^100,566!11^400,300,130,30")
-"""The switch is out of reach."""
+SHUT_IN = parse_level("0" * 713 + "|5^100,566!11^400,300,130,30")  # the switch is out of reach
 
 
 def outcome(level: Level, actions: np.ndarray) -> int:

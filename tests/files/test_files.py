@@ -183,7 +183,7 @@ def test_only_regular_files_are_read(tmp_path: Path) -> None:
     assert read_bytes(tmp_path / "big", 11) == b"x" * 11
 
 
-def test_what_is_no_text_is_an_error_with_its_place(tmp_path: Path) -> None:
+def test_what_is_not_text_is_an_error_with_its_place(tmp_path: Path) -> None:
     path = tmp_path / "a.txt"
     path.write_bytes(b"one\ntw\xff")
     with pytest.raises(FileError, match=r"a\.txt:2:3: not a text in UTF-8; found the byte 0xff"):
@@ -296,7 +296,7 @@ def test_data_folder_of_a_checkout(root: Path) -> None:
     assert data_folder("levels") == root / "levels"
 
 
-def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_home_of_an_unknown_user_is_one_of_our_errors(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NINJA_GAME_HOME", "~nobody-of-that-name/x")
     with pytest.raises(FileError, match="NINJA_GAME_HOME names no folder"):
         user_folder()
@@ -308,9 +308,9 @@ def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkey
     install = f"install it: {sys.executable} -m pip install "
     assert runtime.install_hint("learn").startswith(f"{install}'gymnasium>=")
     for extra in ("fast", "cluster", "plots", "film", "learn", "minari", "train"):
-        told = runtime.install_hint(extra).removeprefix(install)
-        assert told
-        assert "ninja-game" not in told, "nobody knows whether it can be had there"
+        hint = runtime.install_hint(extra).removeprefix(install)
+        assert hint
+        assert "ninja-game" not in hint, "nobody knows whether it can be had there"
 
     def refuse(name: str) -> None:
         raise PackageNotFoundError(name)

@@ -102,7 +102,7 @@ MISTAKES = {
 }
 
 
-def test_every_mistake_is_told_as_recorded() -> None:
+def test_every_mistake_is_reported_as_recorded() -> None:
     hold_against(GOLDEN, [f"{name}: {mistakes(text)[0]}" for name, text in MISTAKES.items()])
 
 

@@ -20,7 +20,7 @@ def mistakes(lines: list[str]) -> list[str]:
 
 @pytest.mark.parametrize("lines", [PLAIN, NUMBERED], ids=["plain", "numbered"])
 @pytest.mark.parametrize("row", [1, 7, 23])
-def test_a_missing_bar_is_told_once(row: int, lines: list[str]) -> None:
+def test_a_missing_bar_is_reported_once(row: int, lines: list[str]) -> None:
     line = lines[row + 1]
     for side, broken in (("left", line.replace("|", "", 1)), ("right", line[:-1])):
         (message,) = mistakes([*lines[: row + 1], broken, *lines[row + 2 :]])
@@ -28,7 +28,7 @@ def test_a_missing_bar_is_told_once(row: int, lines: list[str]) -> None:
         assert f"without its {side} frame" in message
 
 
-def test_a_row_that_was_deleted_or_doubled_is_told_once() -> None:
+def test_a_row_that_was_deleted_or_doubled_is_reported_once() -> None:
     (missing,) = mistakes(NUMBERED[:8] + NUMBERED[9:])
     assert missing.startswith("broken.txt:9: wrong row number; found '8'; expected 7; a row is missing")
     (double,) = mistakes([*NUMBERED[:9], *NUMBERED[8:]])

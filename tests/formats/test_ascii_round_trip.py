@@ -88,8 +88,7 @@ def test_objects_that_crowd_few_cells_come_back_in_order(drawn: list[tuple[Objec
     assert_round_trip(Level(objects=tuple(crowded)))
 
 
-any_text = st.text(st.characters())
-"""Halves of surrogate pairs too, which JSON can hold."""
+any_text = st.text(st.characters())  # halves of surrogate pairs too, which JSON can hold
 
 
 @given(any_text, any_text, any_text, any_text)
@@ -141,7 +140,7 @@ UNPLEASANT = (
 
 
 @pytest.mark.parametrize("number", range(len(UNPLEASANT)))
-def test_long_rubbish_is_told_shortly(number: int) -> None:
+def test_long_rubbish_is_reported_shortly(number: int) -> None:
     started = time.process_time()
     with pytest.raises(NinjaGameError) as caught:
         parse_ascii_level(UNPLEASANT[number])
@@ -151,7 +150,7 @@ def test_long_rubbish_is_told_shortly(number: int) -> None:
 
 @settings(max_examples=80)
 @given(random_levels, st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 40), st.text(max_size=6)), max_size=4))
-def test_mutated_text_gives_a_level_or_an_error_of_ours(level: Level, edits: list[tuple[int, int, str]]) -> None:
+def test_mutated_text_gives_a_level_or_one_of_our_errors(level: Level, edits: list[tuple[int, int, str]]) -> None:
     text = write_ascii_level(level, name="mutant")
     for place, length, new in edits:
         start = place % (len(text) + 1)
@@ -161,7 +160,7 @@ def test_mutated_text_gives_a_level_or_an_error_of_ours(level: Level, edits: lis
 
 
 @given(st.text(alphabet=TILE_CHARS + ' |;:,"\n' + "".join(symbol.char for symbol in SYMBOLS) + "raw tile id px"))
-def test_rubbish_gives_an_error_of_ours(text: str) -> None:
+def test_rubbish_gives_one_of_our_errors(text: str) -> None:
     for lead in ("", "ninja-game level 1\n"):
         with pytest.raises(NinjaGameError):
             parse_ascii_level(lead + text)

@@ -125,7 +125,7 @@ def test_a_marker_costs_as_much_among_many() -> None:
     assert text.startswith("#m0\n   2,R\n#m2\n   2,R\n")
 
 
-def test_more_markers_than_a_text_may_hold_are_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_more_markers_than_a_text_may_hold_are_reported(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(input_text, "MAX_MARKERS", 5)
     assert len(read_inputs([(1, "#a #b #c #d #e R")]).markers) == 5
     with pytest.raises(ReplayError, match=r"2:4: too many markers; found '#f'; expected at most 5"):
@@ -137,7 +137,7 @@ def test_more_markers_than_a_text_may_hold_are_told(monkeypatch: pytest.MonkeyPa
         load_replays(main)
 
 
-def test_more_ticks_than_demos_of_older_versions_may_hold_together_are_told(
+def test_more_ticks_than_demos_of_older_versions_may_hold_together_are_reported(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     path = tmp_path / "old.txt"

@@ -100,7 +100,7 @@ def test_text_in_any_usual_encoding(tmp_path: Path, encoding: str) -> None:
         (b"ninja-game replay 3\nhello", "not a header line"),
     ],
 )
-def test_what_is_no_level_is_refused_with_the_files_name(tmp_path: Path, data: bytes, message: str) -> None:
+def test_what_is_not_a_level_is_refused_with_the_files_name(tmp_path: Path, data: bytes, message: str) -> None:
     path = tmp_path / "some.txt"
     path.write_bytes(data)
     with pytest.raises(NinjaGameError, match=message) as caught:
@@ -261,7 +261,9 @@ def test_a_given_level_serves_a_replay_that_has_only_a_digest(tmp_path: Path) ->
         ("", ReplayError, "no recording"),
     ],
 )
-def test_what_is_no_recording_is_refused(tmp_path: Path, text: str, error: type[NinjaGameError], message: str) -> None:
+def test_what_is_not_a_recording_is_refused(
+    tmp_path: Path, text: str, error: type[NinjaGameError], message: str
+) -> None:
     path = saved(tmp_path, text)
     with pytest.raises(error, match=message) as caught:
         load_replays(path)

@@ -223,7 +223,7 @@ def test_pack_with_odd_names_is_refused(name: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"a": 1}', "{" * 100_000, "[" * 100_000, json.dumps({"pack.toml": None})])
-def test_pack_that_is_no_pack_is_refused(text: str) -> None:
+def test_pack_that_is_not_a_pack_is_refused(text: str) -> None:
     with pytest.raises(LinkError, match="no pack in this link"):
         Pack(Path(write_link("pack", [text])))
 
@@ -268,7 +268,7 @@ def _changed(link: str, rng: random.Random) -> str:
     return link
 
 
-def test_mutated_links_give_only_errors_of_ours_in_bounded_time() -> None:
+def test_mutated_links_give_only_our_own_errors_in_bounded_time() -> None:
     rng = random.Random(7)
     pack = pack_link({name: (Path("tests/pack") / name).read_text("utf-8") for name in ("pack.toml", "pars.toml")})
     replays = recording_link([load_replays(path)[0] for path in bundled_replays()[:2]])
@@ -286,7 +286,7 @@ def test_mutated_links_give_only_errors_of_ours_in_bounded_time() -> None:
 
 
 @given(st.binary(max_size=300), st.sampled_from(["level", "replay", "pack"]))
-def test_any_bytes_in_a_sound_link_give_only_errors_of_ours(data: bytes, kind: str) -> None:
+def test_any_bytes_in_a_sound_link_give_only_our_own_errors(data: bytes, kind: str) -> None:
     link = f"#{kind}=1.{packed(data)}"
     for reader in (load_levels, load_replays, pack_texts):
         try:
@@ -316,7 +316,7 @@ def test_a_file_with_the_name_of_a_link_is_read_in_its_folder(
     assert is_link(Path(f"https://example.org/{name}"))
 
 
-def test_a_long_text_is_told_from_a_link_in_time_of_its_length() -> None:
+def test_a_long_text_is_told_apart_from_a_link_in_time_of_its_length() -> None:
     start = time.process_time()
     assert not is_link("not " * 10**6)
     assert time.process_time() - start < 20

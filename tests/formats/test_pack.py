@@ -83,13 +83,13 @@ def test_zip_is_what_its_folder_is(tmp_path: Path, top: str) -> None:
     assert [level.level for level in load_levels(tmp_path / "two.zip")] == [level.level for level in load_levels(path)]
 
 
-def test_names_in_a_zip_that_lead_elsewhere_are_passed_by(tmp_path: Path) -> None:
+def test_names_in_a_zip_that_lead_elsewhere_are_skipped(tmp_path: Path) -> None:
     odd = ["../a.txt", "/b.txt", "x/../c.txt", "deep/er/d.txt", "certificates/../e.txt", "..\\f.txt"]
     pack = Pack(zip_pack(tmp_path / "odd.zip", {"pack.toml": INDEX, "good.txt": LEVEL, **dict.fromkeys(odd, LEVEL)}))
     assert pack.files.names == ("good.txt", "pack.toml")
 
 
-def test_what_a_zip_hides_is_told(tmp_path: Path) -> None:
+def test_what_a_zip_hides_is_reported(tmp_path: Path) -> None:
     entries = {"a/pack.toml": INDEX, "a/x.txt": LEVEL, "a/X.txt": LEVEL, "b/pack.toml": INDEX}
     problems = Pack(zip_pack(tmp_path / "odd.zip", entries)).problems
     assert [problem.removeprefix(f"{tmp_path}/odd.zip/") for problem in problems] == [
@@ -99,7 +99,7 @@ def test_what_a_zip_hides_is_told(tmp_path: Path) -> None:
     ]
 
 
-def test_file_without_a_name_in_a_zip_is_passed_by(tmp_path: Path) -> None:
+def test_file_without_a_name_in_a_zip_is_skipped(tmp_path: Path) -> None:
     path = zip_pack(tmp_path / "odd.zip", {"pack.toml": INDEX, "good.txt": LEVEL, "x": LEVEL})
     data = bytearray(path.read_bytes())
     data[data.rindex(b"PK\1\2") + 46] = 0  # the library cuts names at a zero byte: the last one is empty now
@@ -108,7 +108,7 @@ def test_file_without_a_name_in_a_zip_is_passed_by(tmp_path: Path) -> None:
     assert Pack(path).files.names == ("good.txt", "pack.toml")
 
 
-def test_zip_that_is_none_broken_or_too_large_is_an_error_of_ours(
+def test_zip_that_is_none_broken_or_too_large_is_one_of_our_errors(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "no.zip").write_text("no zip")

@@ -37,8 +37,8 @@ MADE = st.builds(
 
 @given(MADE, st.lists(NAMES.filter(bool), max_size=3, unique=True).map(tuple))
 def test_a_text_reads_back_equal(made: Provenance, names: tuple[str, ...]) -> None:
-    told = replace(parse_replay(replay()), made=made, co_authors=names)
-    assert parse_replay(write_replay(told)) == told
+    claimed = replace(parse_replay(replay()), made=made, co_authors=names)
+    assert parse_replay(write_replay(claimed)) == claimed
 
 
 def test_it_says_whether_anything_helped() -> None:
@@ -51,25 +51,25 @@ def test_it_says_whether_anything_helped() -> None:
 
 
 @pytest.mark.parametrize(
-    "said",
+    "stated",
     ["by hand", "edited", "edited 0", "edited 03", "searched", "searched ()", "edited 3, played", "played (A)",
      "edited 9999999999", "played, ", "searched (improve) from a run by"],
 )  # fmt: skip
-def test_anything_else_is_refused_with_its_place(said: str) -> None:
-    text = replay(made=Provenance(played=True)).replace("made: played", f"made: {said}")
+def test_anything_else_is_refused_with_its_place(stated: str) -> None:
+    text = replay(made=Provenance(played=True)).replace("made: played", f"made: {stated}")
     with pytest.raises(ReplayError, match=r"^3:7: not how a run is made; found .*leave the line out"):
         parse_replay(text)
 
 
 def test_what_a_text_cannot_hold_is_not_written() -> None:
-    told = parse_replay(replay())
+    claimed = parse_replay(replay())
     for lies in ({"made": Provenance(edits=-1)}, {"made": Provenance(begun_by="Ann")}, {"co_authors": ("Bob, Cy",)},
                  {"co_authors": ("B" * 2000,)}):  # fmt: skip
         with pytest.raises(ReplayError, match="not how a run is made"):
-            write_replay(replace(told, **lies))
+            write_replay(replace(claimed, **lies))
 
 
-def test_too_many_co_authors_are_told() -> None:
+def test_too_many_co_authors_are_reported() -> None:
     text = replay(co_authors=("Bob",)).replace("Bob", ",".join(map(chr, range(0x4E00, 0x4E00 + 499))))
     with pytest.raises(ReplayError, match=r"^3:13: 1,495 characters .* in 'co-authors'; .* expected at most 1,000"):
         parse_replay(text)
@@ -94,8 +94,8 @@ def test_it_goes_to_a_demo_of_n_and_back(tmp_path: Path) -> None:
     for form in ("celeste", "libtas"):
         source = tmp_path / "run.replay.txt"
         source.write_text(text, "utf-8")
-        said = CliRunner().invoke(cli, ["convert", str(source), str(tmp_path / f"{form}.txt"), "--to", form])
-        assert "how runs were made" in said.output
+        stated = CliRunner().invoke(cli, ["convert", str(source), str(tmp_path / f"{form}.txt"), "--to", form])
+        assert "how runs were made" in stated.output
 
 
 def test_a_text_that_was_changed_by_hand_counts_as_edited() -> None:
@@ -125,8 +125,8 @@ def test_a_searched_run_says_so_and_whose_run_it_began_from(tmp_path: Path) -> N
         assert (run.author, run.replay.co_authors) == ("Ann", ("Cy",))
         assert run.replay.made == Provenance(played=True, searches=searches, begun_by="Ann")
         assert "searched" in run.title
-        said = CliRunner().invoke(cli, ["verify", str(path)]).stdout
-        assert f"(played, searched ({', '.join(searches)}) from a run by Ann)" in said
+        stated = CliRunner().invoke(cli, ["verify", str(path)]).stdout
+        assert f"(played, searched ({', '.join(searches)}) from a run by Ann)" in stated
 
 
 def test_names_are_names() -> None:
@@ -157,9 +157,9 @@ LETTERS = ",".join(map(chr, range(0x4E00, 0x4E00 + 900)))
 
 
 @pytest.mark.parametrize(
-    "told",
+    "claimed",
     [" from a run by Ann", "edited 3 from a run by Ann ", f"edited 3; co-authors: {'B' * 1500}",
      f"edited 3 from a run by {'B' * 1500}", f"edited 3; co-authors: {LETTERS}"],
 )  # fmt: skip
-def test_what_a_text_cannot_hold_is_a_comment(told: str) -> None:
-    assert without_provenance(f"gold [made: {told}]") == (f"gold [made: {told}]", UNKNOWN, ())
+def test_what_a_text_cannot_hold_is_a_comment(claimed: str) -> None:
+    assert without_provenance(f"gold [made: {claimed}]") == (f"gold [made: {claimed}]", UNKNOWN, ())

@@ -16,8 +16,7 @@ from ninja_game.sim.kinds import NINJA, VALUE_COUNTS
 from tests.support import reference
 from tests.support.legacy_demos import write_legacy_demo
 
-Named = tuple[str, str, str]
-"""Name, in-game string, demo."""
+Named = tuple[str, str, str]  # name, in-game string, demo
 
 
 def recordings() -> Iterator[Named]:

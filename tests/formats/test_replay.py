@@ -101,7 +101,7 @@ def test_inputs_read_back_equal(ticks: bytes) -> None:
     assert read_inputs(enumerate(write_inputs(ticks))).keys == ticks
 
 
-def test_a_byte_that_is_no_input_is_refused() -> None:
+def test_a_byte_that_is_not_an_input_is_refused() -> None:
     with pytest.raises(DemoError, match="tick 1 has unknown keys; found 16"):
         write_inputs(b"\x00\x10")
 
@@ -157,7 +157,7 @@ def test_levels_that_are_equal_but_for_the_sign_of_a_zero_are_written_as_they_ar
     assert texts[0] == texts[1] != texts[2] == texts[3]
 
 
-def test_an_embedded_level_must_have_the_digest_that_is_told() -> None:
+def test_an_embedded_level_must_have_the_digest_that_is_claimed() -> None:
     text = write_replay(replace(REPLAY, level=LEVEL, level_digest=level_digest(LEVEL)))
     assert parse_replay(text).level == LEVEL
     with pytest.raises(ReplayError, match=r"a\.txt:4: the digest is not that of level-data; .*the level was changed"):

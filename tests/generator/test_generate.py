@@ -91,7 +91,7 @@ def test_without_a_name_nothing_is_overwritten(tmp_path: Path, monkeypatch: pyte
 
 
 @pytest.mark.parametrize(
-    "words, told",
+    "words, problem",
     [
         (["--difficulty", "11"], "difficulty"),
         (["--seed", "-1"], "seed"),
@@ -99,15 +99,15 @@ def test_without_a_name_nothing_is_overwritten(tmp_path: Path, monkeypatch: pyte
         (["-o", "one.txt", "--replay", "one.txt"], "one file"),
     ],
 )
-def test_bad_input_is_told(words: list[str], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bad_input_is_reported(words: list[str], problem: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("ninja_game.generator.generate.compose", pytest.fail)  # before any work is done
     result = command(*words)
     assert result.exit_code == 2
-    assert told in result.stderr
+    assert problem in result.stderr
 
 
-def test_a_seed_without_a_level_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_seed_without_a_level_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", Effort(attempts=0))
     result = command("--seed", "4")
     assert result.exit_code == 1

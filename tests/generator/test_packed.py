@@ -41,13 +41,13 @@ def test_the_file_is_below_a_megabyte_and_the_same_lines_are_the_same_bytes() ->
 
 
 @pytest.mark.parametrize("data", [b"", b"no archive", lzma.compress(b"x" * 100)[:-20], lzma.compress(b"\xff")])
-def test_a_broken_file_is_told(data: bytes, tmp_path: Path) -> None:
+def test_a_broken_file_is_reported(data: bytes, tmp_path: Path) -> None:
     (tmp_path / "broken.xz").write_bytes(data)
     with pytest.raises(FileError, match="cannot be read"):
         packed._lines(tmp_path / "broken.xz")
 
 
-def test_a_line_with_too_few_fields_is_told() -> None:
+def test_a_line_with_too_few_fields_is_reported() -> None:
     with pytest.raises(FileError, match="5 fields"):
         read_line("1\t2\tname\t2.0\tlevel")
 

@@ -113,7 +113,7 @@ def test_sources_by_name(words: str, count: int, first: str) -> None:
         "test:easy:2",
     ],
 )
-def test_other_names_are_told(wrong: str) -> None:
+def test_other_names_are_reported(wrong: str) -> None:
     with pytest.raises(ArgumentError, match="expected 'bench:train'"):
         level_source(f"bench:{wrong}")
     with pytest.raises(ArgumentError, match="numbers 0 to 999, "):
@@ -122,7 +122,7 @@ def test_other_names_are_told(wrong: str) -> None:
         bench_level("train", 100_000)
 
 
-def test_what_cannot_be_done_with_levels_without_end_is_told() -> None:
+def test_what_cannot_be_done_with_levels_without_end_is_reported() -> None:
     with pytest.raises(ArgumentError, match="expected it alone"):
         level_source(["bench:train", "set"])
     with pytest.raises(ArgumentError, match="holds its levels"):

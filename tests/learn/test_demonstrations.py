@@ -68,7 +68,7 @@ def test_what_ends_before_the_exit_is_truncated_and_both_keys_are_none() -> None
     assert not made.terminations.any()
 
 
-def test_recordings_that_press_jump_anew_while_it_is_held_are_refused() -> None:
+def test_recordings_that_press_jump_again_while_it_is_held_are_refused() -> None:
     held = [4 + 8] + [4] * 200
     assert demonstration(recorded([0] * 3 + held), memory="plain").outcome == "running"
     with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump again"):
@@ -138,9 +138,9 @@ def test_minaris_environment_plays_every_episode_as_it_was(tmp_path: Path, monke
     metadata = list(dataset.storage.get_episode_metadata(range(3)))
     assert [each["frame_skip"] for each in metadata] == [1] * 3
     assert [each["options"]["level"] for each in metadata] == [0, 1, 2]
-    for each, path, told in zip(dataset.iterate_episodes(), paths, metadata, strict=True):
-        assert told["level_digest"] == level_digest(load_replays(path)[0].level)
-        seen = [env.reset(options=told["options"])[0]]
+    for each, path, described in zip(dataset.iterate_episodes(), paths, metadata, strict=True):
+        assert described["level_digest"] == level_digest(load_replays(path)[0].level)
+        seen = [env.reset(options=described["options"])[0]]
         for action, reward, terminated in zip(each.actions, each.rewards, each.terminations, strict=True):
             observation, *paid = env.step(action)
             assert paid[:2] == [reward, terminated]
@@ -180,7 +180,7 @@ def test_the_command_writes_demonstrations_and_names_what_it_leaves_out(tmp_path
         assert result.stdout == ""
 
 
-def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -> None:
+def test_reference_recordings_are_demonstrations_unless_they_press_jump_again() -> None:
     require_reference()
     unplayable = []
     for row in recordings()[::40]:

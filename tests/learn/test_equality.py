@@ -54,7 +54,7 @@ def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int) ->
     """Whether an answer is that of a world of the vector."""
     seen, reward, terminated, truncated, info = single
     infos = {name: values.tolist()[number] for name, values in vector[4].items() if name[0] != "_"}
-    told = {
+    stated = {
         "outcome": OUTCOME_NAMES[infos["outcome"]],
         "ticks": infos["ticks"],
         "gold": infos["gold"],
@@ -64,7 +64,7 @@ def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int) ->
     return (
         all(seen[name].tobytes() == vector[0][name][number].tobytes() for name in PARTS)
         and np.float64(reward).tobytes() == vector[1][number].tobytes()
-        and (terminated, truncated, info) == (vector[2][number], vector[3][number], told)
+        and (terminated, truncated, info) == (vector[2][number], vector[3][number], stated)
     )
 
 

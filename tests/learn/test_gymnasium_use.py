@@ -136,7 +136,7 @@ def wrong_words() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(
-    "wrong,told",
+    "wrong,problem",
     [
         (lambda env: env.reset(options=3), "options are 3; expected a dict of level"),
         (lambda env: env.reset(options={"lvl": 1}), "options are {'lvl': 1}; expected a dict of level"),
@@ -145,8 +145,8 @@ def wrong_words() -> dict[str, Any]:
         (lambda _: NinjaEnv(**wrong_words()), "no argument 'typo'; expected one of actions, body, flat"),
     ],
 )
-def test_what_is_wrong_with_an_argument_is_told(wrong: Any, told: str) -> None:
+def test_what_is_wrong_with_an_argument_is_reported(wrong: Any, problem: str) -> None:
     env = NinjaEnv(memory="plain")
     env.reset(seed=0)
-    with pytest.raises((ArgumentError, InvalidAction), match=re.escape(told)):
+    with pytest.raises((ArgumentError, InvalidAction), match=re.escape(problem)):
         wrong(env)

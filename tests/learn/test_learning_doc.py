@@ -90,8 +90,8 @@ def test_the_page_tells_every_part_of_an_observation_with_its_arguments_and_shap
     for name, kind, arguments, shape, dtype in rows:
         part = PARTS[name]()
         own = {field.name: field.default for field in fields(part) if field.name != "normalised"}
-        told = [f"{key}={'…' if isinstance(value, tuple) else repr(value)}" for key, value in own.items()]
-        assert (kind, arguments) == (type(part).__name__, ", ".join(told))
+        settings = [f"{key}={'…' if isinstance(value, tuple) else repr(value)}" for key, value in own.items()]
+        assert (kind, arguments) == (type(part).__name__, ", ".join(settings))
         assert (shape.strip(","), dtype) == (", ".join(map(str, part.box.shape)), str(part.box.dtype))
 
 

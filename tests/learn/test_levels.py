@@ -60,7 +60,7 @@ def test_the_split_is_one_level_of_each_episode_and_never_changes() -> None:
     "wrong", ["00-0-first-stepz", "nowhere.txt", "", "generated:3", "generated:11:1", "generated:3:a-b", "a\0b",
               "packed:0", "packed:11"],
 )  # fmt: skip
-def test_a_level_that_there_is_not_is_an_error_that_names_levels(wrong: str) -> None:
+def test_a_level_that_does_not_exist_is_an_error_that_names_levels(wrong: str) -> None:
     with pytest.raises(ArgumentError, match="expected"):
         level_source(wrong)
 

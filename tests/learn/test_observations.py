@@ -227,7 +227,7 @@ def test_the_guide_points_to_the_exit() -> None:
         lambda: Observation([Rays(4), Rays(8)]),
     ],
 )  # fmt: skip
-def test_parts_that_there_are_not_are_refused(make: Any) -> None:
+def test_parts_that_do_not_exist_are_refused(make: Any) -> None:
     with pytest.raises(ArgumentError, match="expected"):
         make()
 

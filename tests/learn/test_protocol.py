@@ -74,7 +74,7 @@ def test_a_moment_is_restored_without_its_chance() -> None:
 
 
 @pytest.mark.parametrize("wrong", [{"repeat": 1.0}, {"repeat": -0.1}, {"repeat": "often"}, {"longest_wait": -1}])
-def test_chances_that_cannot_be_are_told(wrong: dict[str, Any]) -> None:
+def test_chances_that_cannot_be_are_reported(wrong: dict[str, Any]) -> None:
     with pytest.raises(ArgumentError, match=rf"{next(iter(wrong))} is .*; expected"):
         NinjaEnv(LEVELS[0], memory="plain", **wrong)
 

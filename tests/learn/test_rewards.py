@@ -92,6 +92,6 @@ def test_a_restored_world_is_shaped_as_it_would_have_been() -> None:
 
 
 @pytest.mark.parametrize("reward", [3, "fame", [ExitReward(), None], [1.0]])
-def test_what_is_no_reward_is_refused(reward: Any) -> None:
+def test_what_is_not_a_reward_is_refused(reward: Any) -> None:
     with pytest.raises(ArgumentError, match="expected one of"):
         reward_terms(reward)

@@ -185,7 +185,7 @@ def test_both_memories_show_the_same() -> None:
 @pytest.mark.parametrize(
     "wrong", [6, -1, 1.5, True, "right", None, [1], [1, [1]], np.array([1, 0, 1]), np.array(float("nan"))], ids=repr
 )
-def test_what_is_no_action_is_refused_and_changes_nothing(env: NinjaEnv, wrong: Any) -> None:
+def test_what_is_not_an_action_is_refused_and_changes_nothing(env: NinjaEnv, wrong: Any) -> None:
     env.reset()
     with pytest.raises(InvalidAction, match="expected"):
         env.step(wrong)
@@ -194,7 +194,7 @@ def test_what_is_no_action_is_refused_and_changes_nothing(env: NinjaEnv, wrong: 
 
 
 @pytest.mark.parametrize("wrong", [1, [1, 0], [0, 0, 2], [0.5, 0, 0]], ids=repr)
-def test_what_is_no_action_of_buttons_is_refused(wrong: Any) -> None:
+def test_what_is_not_an_action_of_buttons_is_refused(wrong: Any) -> None:
     env = NinjaEnv(EXIT_NEAR, actions="buttons", memory="plain")
     env.reset()
     with pytest.raises(InvalidAction, match="expected"):

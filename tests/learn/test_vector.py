@@ -83,7 +83,7 @@ def test_without_autoreset_ended_worlds_wait_for_a_reset() -> None:
     assert envs.step([0, 0, 0])[4]["ticks"].tolist() == [28, 4, 28]
 
 
-def test_each_world_plays_the_level_that_it_is_told() -> None:
+def test_each_world_plays_the_level_that_it_is_given() -> None:
     envs = NinjaVectorEnv(3, level=LEVELS)
     _, infos = envs.reset(seed=1, options={"level": [2, 0, 1]})
     assert infos["level"].tolist() == ["level#2", "level#0", "level#1"]
@@ -103,7 +103,7 @@ def test_seeds_decide_which_levels_are_played() -> None:
     assert {"level#0", "level#1", "level#2"} == {level for row in levels(5) for level in row}
 
 
-def test_a_reused_memory_is_written_anew_and_a_copy_is_not() -> None:
+def test_a_reused_memory_is_written_again_and_a_copy_is_not() -> None:
     shared, copied = NinjaVectorEnv(2, level=LEVELS[0], copy=False), NinjaVectorEnv(2, level=LEVELS[0])
     for envs in (shared, copied):
         first, _ = envs.reset(seed=0)
@@ -127,7 +127,7 @@ def test_a_reused_memory_is_written_anew_and_a_copy_is_not() -> None:
         [1, 1, np.nan],
     ],
 )
-def test_what_is_no_action_is_refused(actions: Any) -> None:
+def test_what_is_not_an_action_is_refused(actions: Any) -> None:
     envs = NinjaVectorEnv(3, level=LEVELS[0])
     envs.reset(seed=0)
     with pytest.raises(InvalidAction, match="expected"):
@@ -190,7 +190,7 @@ def test_a_reset_that_does_not_fit_is_refused(call: dict[str, Any]) -> None:
         {"threads": 0}, {"threads": -1}, {"threads": 1.5}, {"levle": "set"}, {"render_size": (0, 5)},
     ],
 )  # fmt: skip
-def test_settings_that_there_are_not_are_refused(settings: dict[str, Any]) -> None:
+def test_settings_that_do_not_exist_are_refused(settings: dict[str, Any]) -> None:
     with pytest.raises(ArgumentError):
         NinjaVectorEnv(**settings)
 

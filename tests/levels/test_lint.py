@@ -85,9 +85,9 @@ CASES: dict[str, tuple[list[str], dict[int, str]]] = {
 }
 
 
-def test_every_oddity_is_told_as_recorded() -> None:
-    told = ((name, warnings_of(*lines, rows=rows)) for name, (lines, rows) in CASES.items())
-    hold_against(GOLDEN, [f"{name}: {warning}" for name, warnings in told for warning in warnings])
+def test_every_oddity_is_reported_as_recorded() -> None:
+    warned = ((name, warnings_of(*lines, rows=rows)) for name, (lines, rows) in CASES.items())
+    hold_against(GOLDEN, [f"{name}: {warning}" for name, warnings in warned for warning in warnings])
 
 
 def test_a_proper_level_has_no_warning() -> None:
@@ -278,7 +278,7 @@ def test_many_locked_doors_behind_each_other_take_no_time() -> None:
     assert time.process_time() - started < 10
 
 
-def test_a_flood_of_objects_is_told_in_one_warning_and_takes_no_time() -> None:
+def test_a_flood_of_objects_is_reported_in_one_warning_and_takes_no_time() -> None:
     doors = tuple(ObjectSpec(kinds.DOOR, (number / 1e3, 300.0, 0, 0, 9, 9, 1, 0, 0)) for number in range(100_000))
     started = time.process_time()
     (warning,) = level_warnings(Level(objects=PROPER + doors))
@@ -340,11 +340,11 @@ def test_what_only_a_fast_ninja_touches_is_named() -> None:
     door = ObjectSpec(kinds.DOOR, (252.0, 540.0, 0.0, 0.0, 3.0, 3.0, 1.0, 0.0, 0.0))
     gold = [ObjectSpec(kinds.GOLD, (x, 564.0)) for x in (396.0, 403.0)]
     level = Level(box, (ninja, *exits, door, *gold))
-    said = "only a fast ninja touches it"
+    reason = "only a fast ninja touches it"
     assert level_warnings(level) == [
-        f"exit at 25,22 (object 1): its switch at 16,22 lies in a wall: {said}",
-        f"locked door at 3,3 (object 3): its switch at 10,22 lies in a wall: {said}",
-        f"gold at 16,23 (object 4): it lies in a wall: {said}",
+        f"exit at 25,22 (object 1): its switch at 16,22 lies in a wall: {reason}",
+        f"locked door at 3,3 (object 3): its switch at 10,22 lies in a wall: {reason}",
+        f"gold at 16,23 (object 4): it lies in a wall: {reason}",
         "gold at 16,23 (403,564px, object 5): the tiles hide it",
     ]
     assert [_opens(level, speed) for speed in (2.0, 5.0, 7.0)] == [False, False, True]

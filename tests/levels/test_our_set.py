@@ -33,8 +33,7 @@ from tools.measure.level_statistics import (
 OURS = Pack(data_folder("levels"))
 LEVELS = {file: named.level for file, named in OURS.levels.items()}
 LEVELS_IN_ALL = 100
-FIRST = sorted(LEVELS)[:20]
-"""The levels that teach, in their order."""
+FIRST = sorted(LEVELS)[:20]  # the levels that teach, in their order
 LACKING = {
     "even-gold": "03-3 11-2 11-3 12-2 20-1 20-3 22-0 23-2 31-1 33-0 43-1 43-3",
     "even-mines": "03-3 11-2 12-2 20-1 20-3 22-0 31-1 33-0 33-1 41-4 43-1 43-3",
@@ -44,10 +43,8 @@ LACKING = {
     "unused-space": "00-3 02-1",
 }
 """What some levels still lack (docs/good-levels.md), by their places: a shorter table is a better set."""
-STEP = 1.0
-"""So much harder, as measured, may a level of these be than the hardest before it."""
-GOLD_SECONDS = 28.0
-"""The median of the certificates with all gold, at most."""
+STEP = 1.0  # so much harder, as measured, may a level of these be than the hardest before it
+GOLD_SECONDS = 28.0  # the median of the certificates with all gold, at most
 KILLERS = (
     "mine",
     "zap drone",

@@ -101,7 +101,9 @@ def test_level_started_from_the_command_line_has_the_pause_panel() -> None:
         assert isinstance(app.top, PausePanel)
 
 
-def test_damaged_records_are_told_whatever_the_first_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_damaged_records_are_reported_whatever_the_first_screen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
     (tmp_path / "records.sqlite").write_bytes(b"rubbish" * 500)
     seen = []

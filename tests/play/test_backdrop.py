@@ -54,7 +54,7 @@ def pixels(backdrop: Backdrop) -> bytes:
 
 
 @pytest.mark.parametrize("path", REPLAYS, ids=lambda path: path.name.split(".")[0])
-def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
+def test_mended_backdrop_is_the_backdrop_painted_again(path: Path) -> None:
     palette = (CLASSIC, *MOODS)[REPLAYS.index(path) % 6]
     book = SpriteBook(CANVAS.scale, palette)
     for tick, (run, animation, backdrop) in enumerate(pictures(path, palette)):

@@ -81,15 +81,15 @@ def main_menu(tmp_path: Path) -> Iterator[MenuDriver]:
 
 
 @pytest.mark.parametrize("in_page", [False, True])
-def test_who_waits_is_told_and_a_fault_leaves_its_traceback(
+def test_who_waits_is_informed_and_a_fault_leaves_its_traceback(
     why: str, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], *, in_page: bool
 ) -> None:
     monkeypatch.setattr(runtime, "IN_PAGE", in_page)
-    told: list[str] = []
-    thread = runtime.run_in_background(raising(why), told.append)
+    reports: list[str] = []
+    thread = runtime.run_in_background(raising(why), reports.append)
     if not in_page:
         thread.join(LONGEST)
-    assert told == [why]
+    assert reports == [why]
     assert ("Traceback" in capfd.readouterr().err) == ("fault" in why)
 
 

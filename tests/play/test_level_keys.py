@@ -47,7 +47,7 @@ def test_default_keys_of_retry_and_replay_differ() -> None:
     assert not set(ACTIONS["retry"].keys) & set(ACTIONS["replay"].keys)
 
 
-def test_jump_retries_after_the_death_message_and_begins_when_pressed_anew(
+def test_jump_retries_after_the_death_message_and_begins_when_pressed_again(
     stage: tuple[App, ScriptedControls], recording: Recording
 ) -> None:
     app, controls = stage

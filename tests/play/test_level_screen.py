@@ -255,13 +255,15 @@ def test_the_time_bar_is_linear_and_what_gold_adds_to_a_full_one_is_seen(app: Ap
 
 
 @pytest.mark.parametrize("pars", [(), (("gold", 700.0),)])
-def test_what_the_borders_cover_is_told_not_what_lies_between(app: App, pars: tuple[tuple[str, float], ...]) -> None:
+def test_what_the_borders_cover_is_reported_not_what_lies_between(
+    app: App, pars: tuple[tuple[str, float], ...]
+) -> None:
     hud = Hud(app.theme)
     app.surface.fill("black")
-    told = hud.time_bar(app.surface, LIFETIME / 2, pars) + hud.foot(app.surface, "left", "right")
-    assert all(0 < rect.height < app.canvas.px(24) for rect in told)
-    assert sum(rect.width for rect in told[2:]) < app.surface.width / 2
-    for rect in told:
+    drawn_areas = hud.time_bar(app.surface, LIFETIME / 2, pars) + hud.foot(app.surface, "left", "right")
+    assert all(0 < rect.height < app.canvas.px(24) for rect in drawn_areas)
+    assert sum(rect.width for rect in drawn_areas[2:]) < app.surface.width / 2
+    for rect in drawn_areas:
         app.surface.fill("black", rect)
     assert set(pygame.image.tobytes(app.surface, "RGB")) == {0}
 

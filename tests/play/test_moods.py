@@ -39,11 +39,8 @@ SIGHTS = {
 }
 """Machado, Oliveira, Fernandes 2009: the matrix to what is seen of linear RGB, at severity 1.0."""
 
-MIN_DIFFERENCE = 18.0
-"""Difference in CIE Lab from which on two colours are told apart at a glance."""
-
-MIN_SHARE = 0.3
-"""How much of a drawing has to stand out; the rest is shading and highlights."""
+MIN_DIFFERENCE = 18.0  # difference in CIE Lab from which on two colours are told apart at a glance
+MIN_SHARE = 0.3  # how much of a drawing has to stand out; the rest is shading and highlights
 
 THINGS: dict[str, tuple[SpriteKey, LightStyle | None]] = {
     "mine": (static.mine(), STYLES[kinds.MINE]), "turret": (static.turret_base(0), STYLES[kinds.TURRET]),
@@ -57,8 +54,7 @@ THINGS: dict[str, tuple[SpriteKey, LightStyle | None]] = {
 }  # fmt: skip
 """What kills, carries or opens, with the light around it."""
 
-LINES = ("ninja", "ghost", "laser", "electric")
-"""Roles of what is drawn as thin lines, or all in one colour."""
+LINES = ("ninja", "ghost", "laser", "electric")  # roles of what is drawn as thin lines, or all in one colour
 
 GROUNDS = [each for each in PALETTES.values() if each.scenery]
 GROUNDS += [palette_named(BY_COLUMN, column, level) for column in range(5) for level in range(1, 5)]
@@ -115,8 +111,8 @@ def test_things_stand_out_from_the_scenery(palette: Palette) -> None:
         drawn = rgba(SpriteBook(2.0, palette).sprite(key).surface)
         solid, times = np.unique(drawn[drawn[:, 3] > 250][:, :3], axis=0, return_counts=True)
         for sight in SIGHTS:
-            told = times @ (differences(solid, grounds(palette, look), sight) >= MIN_DIFFERENCE) / times.sum()
-            unseen += [(thing, sight, told.min())] * bool(told.min() < MIN_SHARE)
+            share_seen = times @ (differences(solid, grounds(palette, look), sight) >= MIN_DIFFERENCE) / times.sum()
+            unseen += [(thing, sight, share_seen.min())] * bool(share_seen.min() < MIN_SHARE)
     assert unseen == []
 
 

@@ -49,7 +49,7 @@ def pack_of_long_names(folder: Path) -> Path:
 def test_nothing_leaves_its_place_on_any_screen(
     tmp_path: Path, steps: Tour, shown: list[tuple[tuple[int, int], int]]
 ) -> None:
-    """``shown``: sizes of the window and of the text, percent."""
+    """At every size. ``shown``: sizes of the window and of the text, percent."""
     found: set[str] = set()
     pack = pack_of_long_names(tmp_path) if steps is tour else PACK
 

@@ -35,10 +35,8 @@ HERE = Path(__file__).parent
 GOLDEN = HERE / "golden"
 ROOT = HERE.parent.parent
 SIZE = (528, 400)
-MEAN_TOLERANCE = 1.5
-"""Largest mean difference of a colour channel, of 255."""
-BLOCK_TOLERANCE = 30
-"""Largest mean difference in any block of 8 x 8 px."""
+MEAN_TOLERANCE = 1.5  # largest mean difference of a colour channel, of 255
+BLOCK_TOLERANCE = 30  # largest mean difference in any block of 8 x 8 px
 
 
 def scene(

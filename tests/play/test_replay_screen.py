@@ -400,7 +400,7 @@ def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
         assert (app.player.folder / "exports" / "a-b-1.gif").is_file()
 
 
-def test_film_that_cannot_be_saved_is_told() -> None:
+def test_film_that_cannot_be_saved_is_reported() -> None:
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [recording("run", RUN.level, RUN.inputs[:3])])
         app.push(screen)

@@ -201,11 +201,11 @@ def test_gold_of_a_run_is_heard_in_rising_pitches(folder: Path, monkeypatch: pyt
 
 def test_steps_follow_the_run_and_its_speed() -> None:
     assert STEP_PX == CYCLE / 2
-    run, steps, told = Simulation(FLAT), Footsteps(), list[float]()
+    run, steps, walked = Simulation(FLAT), Footsteps(), list[float]()
     for _ in range(80):
         run.step(right=True)
-        told.append(steps.loudness(run.world.ninja))
-    loud = [level for level in told if level]
+        walked.append(steps.loudness(run.world.ninja))
+    loud = [level for level in walked if level]
     way = run.world.ninja.x - 100
     assert abs(len(loud) - way / STEP_PX) <= 1
     assert loud[0] < loud[-1]

@@ -47,7 +47,7 @@ def test_a_replay_is_watched(tmp_path: Path) -> None:
     assert main(replay_path=replay, frames=60, screenshot=str(tmp_path / "picture.png")) == 0
 
 
-def test_a_broken_level_is_told_before_a_window_opens(tmp_path: Path) -> None:
+def test_a_broken_level_is_reported_before_a_window_opens(tmp_path: Path) -> None:
     broken = tmp_path / "broken.txt"
     broken.write_text("not a level", "utf-8")
     pygame.display.quit()

@@ -117,6 +117,6 @@ def test_full_screen_leads_back_to_size_and_place(desktop: Desktop) -> None:
 
 
 def test_window_has_a_name_of_its_own_and_an_icon(desktop: Desktop) -> None:
-    said = desktop.ask("xprop", "-id", desktop.window, "WM_CLASS", "_NET_WM_ICON")
-    assert '"ninja-game"' in said
-    assert "Icon (64 x 64)" in said
+    properties = desktop.ask("xprop", "-id", desktop.window, "WM_CLASS", "_NET_WM_ICON")
+    assert '"ninja-game"' in properties
+    assert "Icon (64 x 64)" in properties

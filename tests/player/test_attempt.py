@@ -93,10 +93,10 @@ def test_who_gave_up_and_goes_back_has_not_given_up() -> None:
     moment = attempt.save()
     attempt.give_up(0.1, 2.0, -3.0)
     given_up = attempt.save()
-    said = []
+    reported = []
     for each in (moment, given_up):
         attempt.restore(each)
-        said.append(attempt.self_inflicted)
+        reported.append(attempt.self_inflicted)
     attempt.simulation.restore(moment[0])
     attempt.after_rewind()
-    assert [*said, attempt.self_inflicted] == [False, True, False]
+    assert [*reported, attempt.self_inflicted] == [False, True, False]

@@ -109,7 +109,7 @@ def packed(**files: bytes) -> bytes:
     [b"", b"no zip", packed(), packed(settingsDOTtoml=b""), packed(recordsDOTsqlite=b"no database" * 100)],
     ids=["empty", "text", "empty zip", "no records", "damaged records"],
 )
-def test_what_is_no_backup_changes_nothing(data: bytes, tmp_path: Path) -> None:
+def test_what_is_not_a_backup_changes_nothing(data: bytes, tmp_path: Path) -> None:
     here = player_data(tmp_path)
     before = sorted(tmp_path.rglob("*"))
     with pytest.raises(FileError, match="not a backup of a player's data"):
@@ -128,7 +128,7 @@ def test_a_name_that_leads_elsewhere_or_is_odd_somewhere_is_left_out_and_told(na
     assert (tmp_path / "to" / "levels" / "own.txt").read_text() == "a level"
 
 
-def test_an_odd_name_of_ones_own_does_not_go_along_and_is_told(tmp_path: Path) -> None:
+def test_an_odd_name_of_ones_own_does_not_go_along_and_is_reported(tmp_path: Path) -> None:
     data = player_data(tmp_path)
     (tmp_path / "levels" / "what?.txt").write_text("a level")
     assert write_backup(data, tmp_path / "all.zip") == [
@@ -137,15 +137,17 @@ def test_an_odd_name_of_ones_own_does_not_go_along_and_is_told(tmp_path: Path) -
     assert "levels/what?.txt" not in ZipFile(tmp_path / "all.zip").namelist()
 
 
-def test_what_would_not_be_taken_in_is_told_when_it_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_would_not_be_taken_in_is_reported_when_it_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     filled(tmp_path)
     data = player_data(tmp_path)
     (tmp_path / "editing").mkdir(exist_ok=True)
     (tmp_path / "editing" / "long.json").write_bytes(bytes(2**20 + 1))
     assert write_backup(data, tmp_path / "one.zip") == ["left out: editing/long.json: no level under edit"]
     monkeypatch.setattr(backup, "MAX_REPLAYS", 2)
-    told = write_backup(data, tmp_path / "all.zip")[-1]
-    assert told.startswith("too large to be taken in: 6 rows in the table replay, of which at most 2 are accepted")
+    last_line = write_backup(data, tmp_path / "all.zip")[-1]
+    assert last_line.startswith("too large to be taken in: 6 rows in the table replay, of which at most 2 are accepted")
     with pytest.raises(FileError, match="6 rows"):
         read_backup(player_data(tmp_path / "to"), (tmp_path / "all.zip").read_bytes())
 
@@ -275,7 +277,7 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
 
 
 @pytest.mark.parametrize(
-    "statement, said",
+    "statement, problem",
     [
         (
             f"INSERT INTO played {COUNTING.format(MAX_TABLE_ROWS)} SELECT i, 1, 1, 1, 1, 1 FROM n",
@@ -294,11 +296,13 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
         ("PRAGMA user_version = 4", "a game that is older"),
     ],
 )
-def test_records_that_hold_too_much_or_more_than_rows_change_nothing(statement: str, said: str, tmp_path: Path) -> None:
+def test_records_that_hold_too_much_or_more_than_rows_change_nothing(
+    statement: str, problem: str, tmp_path: Path
+) -> None:
     data = with_records(filled(tmp_path / "from"), statement)
     here = player_data(tmp_path / "to")
     before = everything(here)
-    with pytest.raises(FileError, match=said):
+    with pytest.raises(FileError, match=problem):
         read_backup(here, data)
     assert everything(here) == before
 
@@ -351,7 +355,7 @@ def test_branches_come_with_their_run_alone(tmp_path: Path) -> None:
     assert there == {"mine.txt", "mine-2.txt", "new.txt", "new.txt.branches.json"}
 
 
-def test_an_address_for_links_that_changes_is_told(tmp_path: Path) -> None:
+def test_an_address_for_links_that_changes_is_reported(tmp_path: Path) -> None:
     data = player_data(tmp_path / "from")
     data.change_settings(data.settings.changed(site="https://other.example/"))
     write_backup(data, tmp_path / "all.zip")

@@ -84,7 +84,7 @@ def assert_a_replay_can_be_kept(folder: Path, word: str = "") -> None:
     data.close()
 
 
-def test_damage_is_told_also_where_python_leaves_out_assertions(tmp_path: Path) -> None:
+def test_damage_is_reported_also_where_python_leaves_out_assertions(tmp_path: Path) -> None:
     (tmp_path / "records.sqlite").write_bytes(b"damaged" * 1000)
     code = (
         "import pathlib, sys; from ninja_game.player.player_data import PlayerData\n"
@@ -156,7 +156,7 @@ def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, full: Path, tmp_p
 
 
 @pytest.mark.parametrize("edit", [edit for edit in EDITS if edit.startswith("UPDATE replay")])
-def test_keeping_a_run_whose_row_is_damaged_saves_it_anew(edit: str, tmp_path: Path) -> None:
+def test_keeping_a_run_whose_row_is_damaged_saves_it_again(edit: str, tmp_path: Path) -> None:
     data = player_data(tmp_path)
     data.records.keep_replay(played(deadly_level()).replay("kept", "me"))
     data.store.connection.execute(edit)

@@ -32,7 +32,7 @@ def passed(folder: Path, level: Entry, *, wait: int = 0, practice: bool = False)
     return notices, mark
 
 
-def test_better_medal_is_told_once_and_slower_runs_change_nothing(tmp_path: Path) -> None:
+def test_better_medal_is_announced_once_and_slower_runs_change_nothing(tmp_path: Path) -> None:
     level = with_pars()
     notices, mark = passed(tmp_path, level, wait=10)
     assert mark == (EXIT_TICK + 10, 0)
@@ -43,7 +43,7 @@ def test_better_medal_is_told_once_and_slower_runs_change_nothing(tmp_path: Path
     assert passed(tmp_path, level, wait=30) == ([], mark)
 
 
-def test_all_gold_is_told_once_and_stays_when_a_better_score_has_less(tmp_path: Path) -> None:
+def test_all_gold_is_announced_once_and_stays_when_a_better_score_has_less(tmp_path: Path) -> None:
     level = with_pars(gold=2)
     notices, mark = passed(tmp_path, level)
     assert mark == (EXIT_TICK, 2)

@@ -41,8 +41,7 @@ from tests.support.memories import BOTH
 from tests.support.reference import recordings
 from tests.support.samples import WALK, WALK_END, running, write_records
 
-CROWD = heavy_level(90)
-"""A tick of it costs a hundred and one."""
+CROWD = heavy_level(90)  # a tick of it costs a hundred and one
 
 
 def recording(level: Level, ticks: int) -> Recording:

@@ -68,6 +68,6 @@ def test_a_killed_worker_changes_nothing_in_the_report(
     assert len(keys) == len(set(keys)) == RUNS + 2
 
 
-def test_nobody_at_the_address_is_an_error_of_ours() -> None:
+def test_nobody_at_the_address_is_one_of_our_errors() -> None:
     with pytest.raises(ClusterError, match="no Dask scheduler at 'nowhere'"):
         list(verify_all([Path("x")], cluster="nowhere"))

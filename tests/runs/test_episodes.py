@@ -129,7 +129,7 @@ FORGED: dict[str, tuple[Callable[[str], str], str]] = {
 
 
 @pytest.mark.parametrize("name", FORGED)
-def test_what_is_no_episode_is_an_error_with_its_line(name: str, tmp_path: Path) -> None:
+def test_what_is_not_an_episode_is_an_error_with_its_line(name: str, tmp_path: Path) -> None:
     forge, why = FORGED[name]
     text = forge(write_episode([parse_replay(WALKED[0])] * 3) if name == "six" else EPISODE)
     assert text != EPISODE

@@ -52,7 +52,7 @@ def strict(text: str, folder: Path, levels: list[NamedLevel]) -> list[Result]:
     return list(verify_all([path], memory="plain", jobs=1, processes=False, levels=levels, strict=True))
 
 
-def told(results: list[Result]) -> Iterator[str]:
+def reasons(results: list[Result]) -> Iterator[str]:
     """What is wrong, in words; nothing for a result that is believed."""
     for result in results:
         yield from [result.message] if isinstance(result, Unreadable) else map(str, result.problems)
@@ -68,7 +68,7 @@ def test_a_forgery_is_refused_and_its_field_told(
 ) -> None:
     results = strict(text, tmp_path, counting)
     assert len(results) == 1
-    assert any(field in words for words in told(results)), results
+    assert any(field in words for words in reasons(results)), results
 
 
 @pytest.mark.parametrize(
@@ -95,22 +95,22 @@ def test_a_forgery_is_refused_and_its_field_told(
     ],
 )
 def test_an_honest_run_is_believed(text: str, tmp_path: Path, counting: list[NamedLevel]) -> None:
-    assert list(told(strict(text, tmp_path, counting))) == []
+    assert list(reasons(strict(text, tmp_path, counting))) == []
 
 
 def test_without_level_the_games_own_levels_count(tmp_path: Path) -> None:
     from ninja_game.files.bundled import bundled_replays
 
     results = list(verify_all(bundled_replays(), memory="plain", jobs=1, processes=False, strict=True))
-    assert list(told(results)) == []
+    assert list(reasons(results)) == []
     assert all(result.level_name for result in results if not isinstance(result, Unreadable))
     (refused,) = strict(record(), tmp_path, [])
-    assert "level_digest" in " ".join(told([refused]))
+    assert "level_digest" in " ".join(reasons([refused]))
 
 
 def test_one_level_is_also_that_of_recordings_without(tmp_path: Path, counting: list[NamedLevel]) -> None:
     results = strict(record(level=""), tmp_path, counting[:1])
-    assert list(told(results)) == []
+    assert list(reasons(results)) == []
 
 
 def test_a_run_on_another_level_fails_without_strict_too(tmp_path: Path) -> None:

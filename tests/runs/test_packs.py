@@ -101,18 +101,18 @@ def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
     assert (result.exit_code, result.output) == (0, "test pack: 2 episodes, 8 levels, nothing odd, 1 accepted\n")
 
 
-def test_of_gold_out_of_reach_it_is_told_once(pack: Path) -> None:
-    def told() -> list[str]:
+def test_of_gold_out_of_reach_it_is_reported_once(pack: Path) -> None:
+    def problems_now() -> list[str]:
         return [finding.code for finding in lint(Pack(pack), with_gold=True) if finding.file == f"{FIRST}.txt"]
 
     kept = pack / "certificates" / f"{FIRST}.exit.replay.txt"
     run = load_replays(kept)[0]
-    assert told() == ["no-gold-run"]
+    assert problems_now() == ["no-gold-run"]
     with (pack / f"{FIRST}.txt").open("a", encoding="utf-8") as level:
         level.write("gold 2,22\n")
     changed = Pack(pack).levels[f"{FIRST}.txt"].level
     kept.write_text(write_replay(record_replay(changed, run.replay.playback(run.replay.end_tick))), "utf-8")
-    assert told() == ["unreachable"], "which is why no run takes all"
+    assert problems_now() == ["unreachable"], "which is why no run takes all"
 
 
 def test_the_order_of_levels_is_looked_at(pack: Path) -> None:

@@ -198,7 +198,7 @@ def _header(shape: str) -> bytes:
     ],
     ids=["nothing", "a version", "a cut header", "no shape", "a shape of terabytes", "one number"],
 )
-def test_odd_arrays_are_errors_of_ours_and_take_no_memory(member: bytes, tmp_path: Path) -> None:
+def test_odd_arrays_are_our_own_errors_and_take_no_memory(member: bytes, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(_zip_of(tmp_path, member)))
 
@@ -209,12 +209,12 @@ def test_a_zip_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name, value", [("compress_type", 99), ("CRC", 1), ("flag_bits", 1)])
-def test_a_damaged_zip_is_an_error_of_ours(name: str, value: int, tmp_path: Path) -> None:
+def test_a_damaged_zip_is_one_of_our_errors(name: str, value: int, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(_zip_of(tmp_path, _header("(3,)") + bytes(24), **{name: value})))
 
 
-def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_path: Path) -> None:
+def test_a_zip_whose_index_leads_before_its_beginning_is_one_of_our_errors(tmp_path: Path) -> None:
     path = tmp_path / "cut.npz"
     write_trace_arrays(TWICE, whole := io.BytesIO())
     path.write_bytes(b"PK" + whole.getvalue()[40:])
@@ -272,6 +272,6 @@ def test_damaged_bytes_of_a_trace_never_escape_as_other_errors(tmp_path: Path) -
         "a.txt,0,n,0,R," + "x" * 200_000 + ",ninja,1,2,3,1,2,,,0,",
     ],
 )  # fmt: skip
-def test_odd_rows_are_errors_of_ours(row: str) -> None:
+def test_odd_rows_are_our_own_errors(row: str) -> None:
     with pytest.raises(FormatError, match="a row that cannot be read"):
         list(read_csv([",".join(TRACE_COLUMNS) + "\n", row + "\n"]))

@@ -259,7 +259,7 @@ def test_another_file_is_no_checkpoint_log_and_keeps_every_byte(text: str, tmp_p
     assert path.read_text() == text
 
 
-def test_a_log_whose_first_line_was_not_finished_begins_anew(archive: Path, tmp_path: Path) -> None:
+def test_a_log_whose_first_line_was_not_finished_begins_again(archive: Path, tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.write_text(json.dumps(HEADER)[:20])
     assert list(verify_plainly([archive], resume=path)) == expected(archive)
@@ -445,7 +445,7 @@ def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, m
         assert result_from_data(json.loads(json.dumps(asdict(result)))) == result
 
 
-def test_a_run_that_is_told_as_not_run_never_passes_on_a_level_that_counts(tmp_path: Path) -> None:
+def test_a_run_that_is_reported_as_not_run_never_passes_on_a_level_that_counts(tmp_path: Path) -> None:
     path = write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
     (refused,) = verify_plainly([path], strict=True)
     assert isinstance(refused, Verdict)

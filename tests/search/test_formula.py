@@ -43,8 +43,7 @@ from tests.support.slow import COMPILED_OR_SLOW
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
 LEVEL = parse_level(TEXT)
-WAITING = bytes([0] * 6 + [2] * 60)
-"""Stands for six ticks, then runs over gold and switch into the exit."""
+WAITING = bytes([0] * 6 + [2] * 60)  # stands for six ticks, then runs over gold and switch into the exit
 
 
 def at_ten_ticks() -> Batch:
@@ -139,7 +138,7 @@ def test_names_mean_what_a_simulation_shows() -> None:
         ("x" * 2000, 0, "a formula that is too long"),
     ],
 )
-def test_what_is_no_formula_is_named_with_its_place(text: str, column: int, message: str) -> None:
+def test_what_is_not_a_formula_is_named_with_its_place(text: str, column: int, message: str) -> None:
     with pytest.raises(FormulaError) as caught:
         parse_truth(text, NAMES, FACTS)
     assert message in str(caught.value)
@@ -147,10 +146,10 @@ def test_what_is_no_formula_is_named_with_its_place(text: str, column: int, mess
 
 
 def test_python_warns_of_no_formula() -> None:
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as warned:
         warnings.simplefilter("always")
         parse_truth("1<2and 1<2", NAMES, FACTS)
-    assert not said
+    assert not warned
 
 
 def test_comparisons_in_a_row_hold_together() -> None:
@@ -161,7 +160,7 @@ def test_comparisons_in_a_row_hold_together() -> None:
 
 
 @given(st.text("xyvtick<>=!()+-*/ 0123.andornot,_$", max_size=40))
-def test_any_text_is_a_formula_or_an_error_of_ours(text: str) -> None:
+def test_any_text_is_a_formula_or_one_of_our_errors(text: str) -> None:
     for parse in (parse_truth, parse_measure):
         try:
             formula = parse(text, NAMES, FACTS)
@@ -450,7 +449,7 @@ def test_a_search_from_a_run_that_stands_still_finds_switch_and_exit() -> None:
     assert run.outcome == "exit"
 
 
-def test_the_nearest_miss_is_told_ever_nearer_and_ends_where_it_says() -> None:
+def test_the_nearest_miss_is_reported_ever_nearer_and_ends_where_it_says() -> None:
     """Nothing comes to the gold in 30 ticks; to the right of the ninja a mine kills what would be nearest to it."""
     level = parse_level("0" * 713 + "|5^100,566!0^400,566!12^150,566")
     task = SpanTask(level, bytes(40), 5, 35, goal="taken(1)")
@@ -485,7 +484,7 @@ def test_a_miss_says_which_part_of_the_goal_is_missing_and_how_far_it_is() -> No
     assert [*misses[-1].missing] == [f"x < -100: {x + 100:.3g} short", f"y < -10000: {10000 + y:.3g} short"]
 
 
-def test_a_long_beam_reports_again_and_again_and_ends_when_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_long_beam_reports_again_and_again_and_ends_when_it_is_asked_to(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(methods, "REPORT_TICKS", 20_000)
     task = SpanTask(LEVEL, bytes(MAX_SPAN), 0, MAX_SPAN, goal="x > 10000 and tick > 3000")
     ticks: list[int] = []

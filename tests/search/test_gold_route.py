@@ -181,7 +181,7 @@ def test_the_exit_is_opened_last() -> None:
     assert [route.frontiers[0, mask].tries for mask in (0, 1)] == [2, 0]
 
 
-def test_gold_that_was_never_collected_is_told() -> None:
+def test_gold_that_was_never_collected_is_reported() -> None:
     progress: list[Progress] = []
     assert solve(Task(WALLED_IN, gold=-1, work=2_000_000), report=progress.append) is None
     assert (progress[-1].gold, progress[-1].untaken) == (1, (3,))
@@ -205,7 +205,7 @@ IN_A_PIT = {19: ".........#vv#", **dict.fromkeys((20, 21, 22), _PIT), 23: "..@.o
 """One-way platforms lead down to gold, from which no way leads back."""
 
 
-def test_gold_from_which_no_way_leads_on_is_told() -> None:
+def test_gold_from_which_no_way_leads_on_is_reported() -> None:
     picture = [f"|{IN_A_PIT.get(row, ''):.<31}|" for row in range(1, 24)]
     level = parse_level("\n".join(["ninja-game level 1", *picture]))
     assert solve(Task(level, work=2_000_000))
@@ -229,7 +229,7 @@ BEHIND_A_LOCK = {
 
 
 @pytest.mark.parametrize(
-    "rows, lines, said",
+    "rows, lines, reason",
     [
         (FAR_SWITCH, "", f"exit at 16,23 (object 1): {UNTOUCHED}"),
         (FAR_EXIT, "", f"exit at 28,3 (object 1): {UNREACHED}"),
@@ -239,12 +239,12 @@ BEHIND_A_LOCK = {
         ),
     ],
 )  # fmt: skip
-def test_what_keeps_a_run_from_the_exit_is_told(rows: dict[int, str], lines: str, said: str) -> None:
+def test_what_keeps_a_run_from_the_exit_is_reported(rows: dict[int, str], lines: str, reason: str) -> None:
     picture = [f"|{rows.get(row, ''):.<31}|" for row in range(1, 24)]
     level = parse_level("\n".join(["ninja-game level 1", *picture, lines]))
     progress: list[Progress] = []
     assert solve(Task(level, work=2_000_000), report=progress.append) is None
-    assert obstacle(level, 0, progress[-1]).sentence == said
+    assert obstacle(level, 0, progress[-1]).sentence == reason
 
 
 def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:

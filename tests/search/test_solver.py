@@ -40,8 +40,7 @@ from tests.support.reference import levels, require_reference
 OPEN = "0" * 713 + "|"
 WALK = parse_level_string(OPEN + "5^100,566!11^160,564,130,564!0^115,566!0^60,566")
 """Right over gold and switch into the exit; another piece of gold lies the other way."""
-WALK_TICKS = 23
-"""End tick of the walk with the right key held all the time: there is no shorter run."""
+WALK_TICKS = 23  # end tick of the walk with the right key held all the time: there is no shorter run
 
 COLUMN = 23
 LEDGE = parse_level_string(

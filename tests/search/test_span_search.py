@@ -26,8 +26,7 @@ from ninja_game.search.task import Task
 from tests.support.waiting import LONGEST
 
 LEVEL = parse_level("0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400")
-WAITING = bytes([0] * 6 + [2] * 60)
-"""Stands for six ticks, then runs over gold and switch into the exit."""
+WAITING = bytes([0] * 6 + [2] * 60)  # stands for six ticks, then runs over gold and switch into the exit
 
 
 def task(**changes: object) -> SpanTask:

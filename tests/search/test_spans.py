@@ -31,8 +31,7 @@ from tests.support.recorded import hold_against
 
 LEVEL = parse_level_string("0" * 713 + "|5^100,566!11^700,564,300,564!0^200,566")
 """Right over a piece of gold and the switch to the exit."""
-STANDING = bytes([2] * 20 + [0] * 30 + [2] * 220)
-"""Stops on the way: a span of it can be better."""
+STANDING = bytes([2] * 20 + [0] * 30 + [2] * 220)  # stops on the way: a span of it can be better
 FINENESS = SpanSettings(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0, 64.0, 0.9, 2.0)
 
 

@@ -94,9 +94,9 @@ def chained(function: Callable[..., Any]) -> Counter[int]:
 
 @pytest.mark.parametrize("rule", DISPATCHING)
 def test_each_dispatching_function_knows_just_the_kinds_that_the_table_says(rule: str) -> None:
-    told = chained(DISPATCHING[rule])
-    assert max(told.values()) == 1, "a kind stands twice: its second branch is never reached"
-    assert set(told) == {kind.number for kind in KINDS if rule in RULES[kind.number]}
+    distinguished = chained(DISPATCHING[rule])
+    assert max(distinguished.values()) == 1, "a kind stands twice: its second branch is never reached"
+    assert set(distinguished) == {kind.number for kind in KINDS if rule in RULES[kind.number]}
 
 
 def test_rules_in_the_table_are_known() -> None:

@@ -8,8 +8,7 @@ from tests.support import reference
 from tests.support.comparing import digest_difference, run_difference, trace_of
 from tests.support.slow import COMPILED_OR_SLOW
 
-PARTS = 8
-"""Each table is tested in parts, so that two processes share the work."""
+PARTS = 8  # each table is tested in parts, so that two processes share the work
 
 pytestmark = pytest.mark.parametrize("part", range(PARTS))
 

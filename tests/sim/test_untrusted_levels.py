@@ -26,7 +26,7 @@ GOLD_SPEC = ObjectSpec(GOLD, (100.0, 300.0))
 
 @pytest.mark.parametrize("memory", BOTH)
 @pytest.mark.parametrize("kind", [13, 99, 10**17, -1, -2, -3, -99])
-def test_a_record_of_a_kind_that_there_is_not_creates_nothing(kind: int, memory: str) -> None:
+def test_a_record_of_a_kind_that_does_not_exist_creates_nothing(kind: int, memory: str) -> None:
     run = Simulation(Level(objects=(ObjectSpec(kind, (1.0, 2.0)), NINJA_SPEC, GOLD_SPEC)), memory=memory)
     run.step(right=True)
     assert [(o.id, o.kind) for o in run.objects] == [(1, "gold")]
@@ -57,7 +57,7 @@ def test_an_odd_type_number_in_a_level_file_harms_nobody(kind: str, memory: str)
         (Level(objects=(NINJA_SPEC,) * 13_000), "too many objects"),
     ],
 )
-def test_what_is_no_level_is_refused(level: Level, message: str, memory: str) -> None:
+def test_what_is_not_a_level_is_refused(level: Level, message: str, memory: str) -> None:
     with pytest.raises(LevelError, match=message):
         Simulation(level, memory=memory)
     for run in (run_level, trace_level):

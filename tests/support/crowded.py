@@ -27,8 +27,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 TICKS = 300
 MASK = (1 << 64) - 1
-DIAGONAL = 0.7071067811865468
-"""Of a diagonal launch pad, as the published levels' text loads (game.md §5.2)."""
+DIAGONAL = 0.7071067811865468  # of a diagonal launch pad, as the published levels' text loads (game.md §5.2)
 
 HARMLESS = (GOLD, BOUNCE_BLOCK, LAUNCH_PAD, ONE_WAY, DOOR, EXIT)
 LETHAL = (TURRET, FLOOR_GUARD, DRONE, THWUMP, LAUNCHER, MINE)

@@ -47,8 +47,7 @@ def _sprite_name(key: SpriteKey) -> str:
     return f"{name}({', '.join(map(str, key.parameters))}){turn}{faded}"
 
 
-Note = tuple[Any, str, Callable[..., str]]
-"""A class or module, the name of its method, and the line of a call."""
+Note = tuple[Any, str, Callable[..., str]]  # a class or module, the name of its method, and the line of a call
 
 
 class _NotedWindow(pygame.Surface):
@@ -65,8 +64,7 @@ class _NotedWindow(pygame.Surface):
 class DrawLog:
     """The lines of what is drawn while ``recording`` lasts, between ``installed`` and its end."""
 
-    containers: ClassVar[Sequence[tuple[type, str]]] = ()
-    """Methods whose parts are noted as well."""
+    containers: ClassVar[Sequence[tuple[type, str]]] = ()  #: methods whose parts are noted as well
 
     def __init__(self) -> None:
         self.called: set[CodeType] = set()

@@ -37,8 +37,8 @@ PRACTISED = Provenance(played=True, assists=("practice",))
 
 def replay(frames: bytes = WALKING + b"\2", level: str = WALK, *, body: Body = "circle", **lies: object) -> str:
     """A replay of ours that tells the truth about these inputs, but for the lies."""
-    told: Replay = record_replay(parse_level(level), frames, body=body, name="walk")
-    return write_replay(replace(told, **lies))  # type: ignore[arg-type]
+    honest: Replay = record_replay(parse_level(level), frames, body=body, name="walk")
+    return write_replay(replace(honest, **lies))  # type: ignore[arg-type]
 
 
 def waypoint(tick: int = 10, x: float = 0.0, y: float = 566.0, state: str = "running") -> tuple[Waypoint, ...]:

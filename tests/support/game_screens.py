@@ -351,9 +351,9 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
 
 def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
     """Four messages, as many as a level has, and where two of them are said."""
-    said = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
+    messages = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
     tools = screen.session.tools
-    tools.history.change(replace(tools.draft, says=said))
+    tools.history.change(replace(tools.draft, says=messages))
     driver.frames(2)
     yield "editor-messages-in-the-level"
     driver.chord("m", pygame.KMOD_SHIFT)
@@ -534,8 +534,7 @@ def _film(driver: MenuDriver) -> Iterator[str]:
         driver.app.pop()
 
 
-Tour = Callable[[MenuDriver], Iterator[str]]
-"""Goes from screen to screen; the name of each, when it is shown."""
+Tour = Callable[[MenuDriver], Iterator[str]]  # goes from screen to screen; the name of each, when it is shown
 
 
 class Today(date):

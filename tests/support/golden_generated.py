@@ -14,8 +14,7 @@ from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.scene import RockBoard, Scene
 
 TABLE = Path(__file__).parent.parent / "golden" / "generated.tsv"
-SEEDS = ((1, 2), (2, 5), (3, 9))
-"""Seed and difficulty of the levels."""
+SEEDS = ((1, 2), (2, 5), (3, 9))  # seed and difficulty of the levels
 
 SMALL = Effort(find=1_500_000, shorten=300_000, attempts=6, rounds=8, tries=64)
 """Enough work to certify most levels, little enough for tests."""

@@ -34,14 +34,11 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 GOLDEN = ROOT / "tests" / "golden"
 REPLAYS = PACK / "certificates"
 
-INTERVAL = 40
-"""Ticks between two checkpoints (1 s): a failing test names the interval in which the difference begins."""
+INTERVAL = 40  # ticks between two checkpoints (1 s): a failing test names the interval in which the difference begins
 PLACE_DIGITS = 3
 
-AFTERMATH = 150
-"""Ticks beyond a replay's end that are part of its golden run."""
-CROWDED = 240
-"""How many crowded levels there are; every eighth is played by the box."""
+AFTERMATH = 150  # ticks beyond a replay's end that are part of its golden run
+CROWDED = 240  # how many crowded levels there are; every eighth is played by the box
 REVEALING = (252, 297, 417, 460, 464, 545, 645, 852, 886, 970, 1066, 1508, 1863, 2030, 2357, 2485, 2759, 2906, 2986)
 """More of them: in these shows what seldom shows (order of the nine cells, places in lists, …)."""
 

@@ -19,11 +19,8 @@ from ninja_game.ui.lettering import Lettering, StrokeFont
 from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Widget
 
-LONG_NAME = 8 * "W"
-"""In what has no length of its own, names and paths, and may be shortened."""
-
-MIN_BOX = (60.0, 14.0)
-"""Logical px from which on a filled rectangle is a panel that its texts must not leave."""
+LONG_NAME = 8 * "W"  # in what has no length of its own, names and paths, and may be shortened
+MIN_BOX = (60.0, 14.0)  # logical px from which on a filled rectangle is a panel that its texts must not leave
 
 
 @dataclass

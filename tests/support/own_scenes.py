@@ -23,8 +23,7 @@ from ninja_game.sim.level import ROWS, Level, ObjectSpec
 
 RIGHT = bytes([2])
 STILL = bytes([0])
-SMALLEST = 9
-"""Columns and rows of the room in which a scene plays, from the upper left corner."""
+SMALLEST = 9  # columns and rows of the room in which a scene plays, from the upper left corner
 
 
 class Scene(NamedTuple):

@@ -12,8 +12,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.digest import replay_digest, world_digest
 from ninja_game.simulation import Simulation
 
-EVERY = 25
-"""Ticks between two digests of the whole world; the ninja is in the digest after every tick."""
+EVERY = 25  # ticks between two digests of the whole world; the ninja is in the digest after every tick
 
 
 def digest_of(level: str, body: Any, keys: str) -> str:

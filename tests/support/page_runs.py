@@ -17,8 +17,7 @@ from tests.support.web_page import DIGESTS, ROOT, run_in
 
 CROWDED = 200
 
-Run = tuple[str, str, str, str]
-"""Name, level as N's string, body, keys in hexadecimal."""
+Run = tuple[str, str, str, str]  # name, level as N's string, body, keys in hexadecimal
 
 NODE = """
 import { readFileSync } from "node:fs";

@@ -28,8 +28,7 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.screen import BaseScreen
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
-Scene = tuple[str, str, Callable[[App], object]]
-"""Name, palette, what is shown."""
+Scene = tuple[str, str, Callable[[App], object]]  # name, palette, what is shown
 
 
 def frames(app: App, count: int, ms: int = 25) -> None:

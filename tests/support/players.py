@@ -14,8 +14,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 
 RIGHT = 2
-EXIT_TICK = 23
-"""When a ninja that runs right from the start touches the exit of ``short_level``."""
+EXIT_TICK = 23  # when a ninja that runs right from the start touches the exit of ``short_level``
 
 
 def short_level(number: int = 0, *, gold: int = 0) -> Level:

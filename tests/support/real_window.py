@@ -17,8 +17,7 @@ import pytest
 
 from tests.support.menu_driver import MenuDriver
 
-TIMEOUT = 240.0
-"""Seconds that each step may take on a busy machine."""
+TIMEOUT = 240.0  # seconds that each step may take on a busy machine
 
 NEEDS_WINDOW = pytest.mark.skipif(
     not (shutil.which("Xvfb") and shutil.which("xdotool")), reason="Xvfb or xdotool is not here"

@@ -10,8 +10,7 @@ from ninja_game.sim.level import ObjectSpec
 from ninja_game.simulation import EventView, ObjectView, Simulation
 from tests.support.own_scenes import ninja, room
 
-FLOOR = 230.0
-"""Where a ninja stands: y in px of its middle."""
+FLOOR = 230.0  # where a ninja stands: y in px of its middle
 
 Play = Callable[..., Simulation]
 """Starts a run: ``play(*objects, tiles={}, x=60.0, y=FLOOR)``. The ninja is object 0, the objects are 1, 2, …"""

@@ -18,8 +18,7 @@ import tempfile
 from functools import partial
 from typing import Any
 
-LONGEST = 60
-"""Seconds that a copy has, on any machine."""
+LONGEST = 60  # seconds that a copy has, on any machine
 
 
 def stop_copies(number: signal.Signals, every: int, report: int) -> None:

@@ -12,14 +12,9 @@ from pathlib import Path
 
 from tests.support.samples import replay_of_walk, running, write_records
 
-PATIENCE = 20.0
-"""Seconds in which a command ends, on any machine; the work would go on for minutes."""
-
-COPIES = 50
-"""Of the archive: what is compiled is quick."""
-
-FAR = "0" * 713 + "|5^100,566!11^700,30,700,60!0^115,566"
-"""Nothing that the ninja can reach ends a run here."""
+PATIENCE = 20.0  # seconds in which a command ends, on any machine; the work would go on for minutes
+COPIES = 50  # of the archive: what is compiled is quick
+FAR = "0" * 713 + "|5^100,566!11^700,30,700,60!0^115,566"  # nothing that the ninja can reach ends a run here
 
 COMMANDS = {
     "verify on processes": "verify archive.txt --memory plain --jobs 2 -q --report out/report.json --resume out/log",

@@ -42,7 +42,7 @@ class Visitor:
             self.problems.append(message.text)
 
     @contextmanager
-    def loading_anew(self) -> Iterator[None]:
+    def loading_again(self) -> Iterator[None]:
         """What is done within makes the page load again; afterwards the new one runs."""
         self.page.evaluate("() => (document.body.dataset.old = '')")
         yield

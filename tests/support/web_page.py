@@ -19,8 +19,7 @@ DIGESTS, SCENES = (ROOT / "tests" / "support" / f"page_{name}.py" for name in ("
 """Files that Python runs here and in a page alike."""
 
 CACHE = cache_folder()
-PYODIDE = CACHE / f"pyodide-{PYODIDE_VERSION}"
-"""Where Pyodide's files are once a site was built."""
+PYODIDE = CACHE / f"pyodide-{PYODIDE_VERSION}"  # where Pyodide's files are once a site was built
 
 SIZE = (1584, 1200)
 

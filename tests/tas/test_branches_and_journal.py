@@ -33,20 +33,20 @@ branches_of_any_kind = st.builds(Branch, st.text(max_size=5), tracks(), st.none(
 )
 def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], data: st.DataObject) -> None:
     branches = Branches()
-    told = Branches()
+    reported = Branches()
     for what, branch in steps:
         number = data.draw(st.integers(0, max(0, len(branches) - 1)))
         if what == "keep":
             kept = branches.keep(branch)
             assert (branches.current, branches.all[kept].track) == (kept, branch.track)
-            told.do({"keep": json.loads(json.dumps(branches.as_json()["branches"][kept]))})
+            reported.do({"keep": json.loads(json.dumps(branches.as_json()["branches"][kept]))})
         elif not branches.all:
             continue
         elif what == "drop":
             parents = [each.parent for each in branches.all]
             names = {at: id(each.track) for at, each in enumerate(branches.all)}
             branches.drop(number)
-            told.do({"drop": number})
+            reported.do({"drop": number})
             for at, each in enumerate(branches.all):
                 parent = parents[at + (at >= number)]
                 parent = parents[number] if parent == number else parent
@@ -55,17 +55,17 @@ def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], d
                     assert id(branches.all[each.parent].track) == names[parent]
         elif what == "checkout":
             assert branches.checkout(number) == branches.all[number].track
-            told.do({"checkout": number})
+            reported.do({"checkout": number})
         else:
             branches.rename(number, branch.name)
-            told.do({"rename": number, "name": branch.name})
+            reported.do({"rename": number, "name": branch.name})
     seen = list(branches.in_tree())
     assert sorted(number for number, _ in seen) == list(range(len(branches)))
     depths = dict(seen)
     for number, branch in enumerate(branches.all):
         assert depths[number] == (0 if branch.parent is None else depths[branch.parent] + 1)
     again = branches_of_json(json.loads(json.dumps(branches.as_json())))
-    assert (again.all, again.current) == (branches.all, branches.current) == (told.all, told.current)
+    assert (again.all, again.current) == (branches.all, branches.current) == (reported.all, reported.current)
 
 
 def test_a_long_line_of_branches_is_shown() -> None:
@@ -84,7 +84,7 @@ def damaged(text: str, rng: Random) -> str:
     return text
 
 
-def test_damaged_branches_are_told() -> None:
+def test_damaged_branches_are_reported() -> None:
     branches = Branches()
     branches.keep(Branch("one", InputTrack(b"\1\2").named(1, "a")))
     branches.keep(Branch("two", InputTrack(b"\1\2\3")))
@@ -139,7 +139,7 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: TasSession, tmp
         opened = done or not found.branches.all  # the run as it was opened is kept just before the first edit
         assert (tracks[-1], found.branches.all if opened else []) == (track, branches), size
         # What is written afterwards is read again, whatever was cut.
-        journal = Journal(tmp_path, found.said, file)
+        journal = Journal(tmp_path, found.head, file)
         assert journal.note({"drop": 99})
         journal.close(keep=True)
         assert read_journal(file).tracks == found.tracks
@@ -249,7 +249,7 @@ def test_nobody_discards_what_another_window_goes_on_with(session: TasSession, t
     assert [each.tracks[-1] for each in lost_runs(tmp_path)] == [other.track]
 
 
-def test_what_cannot_be_written_is_told_and_comes_later(
+def test_what_cannot_be_written_is_reported_and_comes_later(
     session: TasSession, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session.change(session.track.replaced(0, 1, [1]))
@@ -279,7 +279,7 @@ def test_a_run_beside_does_not_lose_edits_that_are_yet_to_be_written(session: Ta
     assert (found.tracks[-1:], [run.name for run in found.beside]) == ((session.track,), ["Cy"])
 
 
-def test_a_place_without_files_is_told(tmp_path: Path) -> None:
+def test_a_place_without_files_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     (tmp_path / JOURNAL_FOLDER).write_text("in the way")

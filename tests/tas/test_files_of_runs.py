@@ -181,8 +181,8 @@ def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None
     journal = edited_and_lost(path, tmp_path)
     first, _, rest = journal.read_text("utf-8").partition("\n")
     for place, home in ((path, path), (other, None), (tmp_path / "missing", None), (tmp_path, None)):
-        said = json.loads(first) | {"path": str(place), "digest": digest_of_file(other)}
-        journal.write_text(f"{json.dumps(said)}\n{rest}", "utf-8")
+        head = json.loads(first) | {"path": str(place), "digest": digest_of_file(other)}
+        journal.write_text(f"{json.dumps(head)}\n{rest}", "utf-8")
         (found,) = lost_runs(tmp_path)
         assert found.opened.file.path == home
     journal.write_text(f"{first}\n{rest}", "utf-8")

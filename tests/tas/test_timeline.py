@@ -36,7 +36,7 @@ FALL = parse_level_string("0" * 713 + "|5^100,40!11^700,584,700,560")
 
 
 @pytest.mark.parametrize("memory", BOTH)
-def test_a_death_is_told_with_what_killed(memory: str) -> None:
+def test_a_death_is_shown_with_what_killed(memory: str) -> None:
     timeline = Timeline(FALL, bytes([2] * 100), memory=memory)
     assert (timeline.death, timeline.ending) == ("", ""), "nothing is simulated yet"
     timeline.simulate(300)

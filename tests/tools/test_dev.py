@@ -140,9 +140,9 @@ def test_lint_fails_with_the_names_of_what_failed(
 
 def test_an_unknown_command_is_refused_with_the_list(capsys: pytest.CaptureFixture[str]) -> None:
     assert dev.main(["chekc"]) == 2
-    told = capsys.readouterr()
-    assert "no command 'chekc'" in told.err
-    assert "change-rules" in told.err
+    captured = capsys.readouterr()
+    assert "no command 'chekc'" in captured.err
+    assert "change-rules" in captured.err
     assert dev.main(["--help"]) == 0
     assert "change-rules" in capsys.readouterr().out
 
@@ -153,7 +153,7 @@ def test_the_readme_lists_the_same_commands() -> None:
     assert sorted(listed) == sorted(re.findall(r"^  (\S+)  ", dev.__doc__ or "", re.MULTILINE))
 
 
-def test_old_pythons_are_told_what_is_needed() -> None:
+def test_old_pythons_are_shown_what_is_needed() -> None:
     source = (ROOT / "tools" / "dev.py").read_text("utf-8")
     # The check stands before anything that a Python of those days could trip over when it runs.
     assert source.index("sys.version_info < (3, 11)") < source.index("\nimport hashlib")

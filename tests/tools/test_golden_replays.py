@@ -12,7 +12,7 @@ from ninja_game.formats.replay.text import write_replay
 from tests.support import golden_runs
 
 
-def test_only_replays_that_are_not_right_are_written_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_replays_that_are_not_right_are_written_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first, second = sorted(golden_runs.REPLAYS.glob("*.replay.txt"))[:2]
     text = first.read_bytes()
     right = load_replays(second)[0].replay

@@ -19,18 +19,18 @@ def test_killed_processes_lose_nothing(
         pytest.skip("children are forked")
     # Two seconds are the promise; tests run on machines that are busy with others.
     monkeypatch.setattr(Drawing, "most", 8.0)
-    told, wrong = kill_test(kills, 7, tmp_path, what=what)
+    count, wrong = kill_test(kills, 7, tmp_path, what=what)
     assert not wrong
-    assert told > least
+    assert count > least
 
 
 def test_the_trial_sees_what_is_lost(tmp_path: Path) -> None:
-    said = [("edited", "a", 10**9), ("edited", "b", 3 * 10**9)]
-    assert list(Drawing(tmp_path).losses(tmp_path, said, 6 * 10**9)) == ["5.00 s lost"]
+    edits = [("edited", "a", 10**9), ("edited", "b", 3 * 10**9)]
+    assert list(Drawing(tmp_path).losses(tmp_path, edits, 6 * 10**9)) == ["5.00 s lost"]
 
 
 @pytest.mark.parametrize(
-    "noted, said, wrong",
+    "noted, edits, wrong",
     [
         ("ABCBA", "ABCB", []),  # killed before the last undo was said
         ("A", "ABCD", ["3 edits lost"]),
@@ -38,14 +38,14 @@ def test_the_trial_sees_what_is_lost(tmp_path: Path) -> None:
         ("AE", "ABCD", ["3 edits lost"]),  # what was not said is no excuse
     ],
 )
-def test_an_undo_that_was_not_said_loses_nothing(noted: str, said: str, wrong: list[str], tmp_path: Path) -> None:
+def test_an_undo_that_was_not_said_loses_nothing(noted: str, edits: str, wrong: list[str], tmp_path: Path) -> None:
     state = Track(tmp_path / "home")
     session = opened_run(tmp_path / "home")
     tracks = {name: session.track.named(number, name) for number, name in enumerate("ABCDE")}
     for name in noted:
         session.change(tracks[name])
     session.close(keep=True)
-    facts = [("edited", digest_of_track(tracks[name]), 0) for name in said]
+    facts = [("edited", digest_of_track(tracks[name]), 0) for name in edits]
     assert list(state.losses(tmp_path / "home", facts)) == wrong
     assert state.last == digest_of_track(tracks[noted[-1]])
     assert list(state.losses(tmp_path / "home", [])) == [], "it is as it was found"

@@ -98,6 +98,6 @@ def test_figures_of_the_reference_are_its_quartiles(reference: dict[str, Level])
 def test_tables_of_the_set_can_be_made(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.argv", ["level_statistics"])
     level_statistics.main()
-    told = capsys.readouterr().out
-    assert "| gold | 24 - 36 - 49 |" in told
-    assert "variants that none has" in told
+    output = capsys.readouterr().out
+    assert "| gold | 24 - 36 - 49 |" in output
+    assert "variants that none has" in output

@@ -157,12 +157,12 @@ def test_a_batch_is_one_row_of_the_first_page(
 ) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
-    for most, rows, told in ((2, 2, False), (1, 1, True)):
+    for most, rows, noted in ((2, 2, False), (1, 1, True)):
         monkeypatch.setattr("ninja_game.web.board.pages.MAX_OF_A_MOMENT", most)
         index = (board_of(runs, levels, tmp_path / f"{most}") / "index.html").read_text("utf-8")
         newest = index.partition("<h2>Newest records")[2].partition("</tbody>")[0]
-        count = newest.partition("</ul>")[0].count("<li ") if not told else newest.count("<tr>") - 1
-        assert (count, "2 runs with records came in together" in newest) == (rows, told)
+        count = newest.partition("</ul>")[0].count("<li ") if not noted else newest.count("<tr>") - 1
+        assert (count, "2 runs with records came in together" in newest) == (rows, noted)
     assert index.index("<h2>Newest") < index.index("<h2>Players, played")
     assert "UTC" not in index, "nobody knows a date"
     for text in ('<a href="levels.html">1 level</a>', "<td>2 players</td>"):
@@ -246,11 +246,11 @@ def test_a_level_tells_in_which_second_time_goes(runs: Path, levels: Path, tmp_p
     assert re.findall("#watch=[0-9a-f]{16}-([0-9]),[0-9a-f]{16}-([0-9])", races) == [
         ("0", "1"), ("0", "2"), ("1", "0"), ("1", "2"), ("2", "0"), ("2", "1"),
     ], "in the colours of the picture"  # fmt: skip
-    told = [f"{name} loses most between 0 s and 1 s of TAS, assisted: {time} s." for name, time in lost]
-    assert re.findall("<p>([^<]+)</p>", page.partition("<h2>Where time goes</h2>")[2]) == told
+    noted = [f"{name} loses most between 0 s and 1 s of TAS, assisted: {time} s." for name, time in lost]
+    assert re.findall("<p>([^<]+)</p>", page.partition("<h2>Where time goes</h2>")[2]) == noted
 
 
-def test_how_a_run_was_made_is_told_once(runs: Path, levels: Path, tmp_path: Path) -> None:
+def test_how_a_run_was_made_is_shown_once(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", replay(author="Ann"))
     put(runs, "b.txt", replay(bytes(8) + WALKING + b"\2", author="Bea", made=Provenance(played=True)))
     page = (board_of(runs, levels, tmp_path / "site") / "levels" / f"{DIGEST[:16]}.html").read_text("utf-8")
@@ -355,8 +355,8 @@ def test_tables_of_a_level_have_no_empty_column_and_fold_remarks(runs: Path, lev
     picture, parts = page.partition("<main")[2].partition("<section")[::2]
     assert ('class="paths"' in picture, "<img" in picture, 'class="paths"' in parts) == (True, False, False)
     assert "How the other records went" not in page, "one record was beaten"
-    said = "<summary>Remark</summary>64 of its 65 ticks have the inputs of the run by Ann in ann.txt, "
-    assert [each.count(said) for each in tables] == [1, 1], "folded"
+    remark_text = "<summary>Remark</summary>64 of its 65 ticks have the inputs of the run by Ann in ann.txt, "
+    assert [each.count(remark_text) for each in tables] == [1, 1], "folded"
     assert "Sum of the fastest segments, each from the row above: 1.575 s." in page
     assert re.findall("<td>([^<]+)</td>", tables[0].partition(">Bob<")[2])[1] == "0.025"
 
@@ -506,9 +506,9 @@ def test_what_no_keyboard_can_do_counts_on_the_ladder_of_tools(runs: Path, level
         put(runs, f"{name}.txt", replay(keys, author="\u0410nn", made=made))
     found = judged_by_file_dates(runs, levels)
     (run,) = found.runs
-    told = "no keyboard can do that: in tick 0 (jump down) the jump key is down and was never pressed"
+    noted = "no keyboard can do that: in tick 0 (jump down) the jump key is down and was never pressed"
     mixed = "letters of the player's name look like those of another script"
-    assert (run.file, run.ladder, run.remark) == ("tool.txt", ASSISTED, f"{mixed}; {told}")
+    assert (run.file, run.ladder, run.remark) == ("tool.txt", ASSISTED, f"{mixed}; {noted}")
     assert [each.kind for each in found.rejected] == ["refused", "refused"]
 
 
@@ -554,7 +554,7 @@ def test_a_near_copy_has_no_place_until_somebody_confirms_it(runs: Path, levels:
     assert found == [doubted, ([(1, "Bob"), (2, "Ann"), (3, "Cid")], ["Ann", "Bob"]), doubted]
 
 
-def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, levels: Path, tmp_path: Path) -> None:
+def test_a_faster_near_copy_is_reported_and_confirmed_by_a_command(runs: Path, levels: Path, tmp_path: Path) -> None:
     data = tmp_path / "board.json"
     put(runs, "ann.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann"))
     put(runs, "bob.txt", slow_walk(90, author="Bob"))
@@ -578,8 +578,8 @@ def test_a_faster_near_copy_is_told_and_confirmed_by_a_command(runs: Path, level
     authors = [(site.parent / "replays" / f"{stem}.txt").read_text("utf-8") for stem in both.groups()]
     assert ["author: Bob" in authors[0], "author: Ann" in authors[1]] == [True, True]
     words = "board", str(runs), "--levels", str(levels), "--json", str(data), "--confirm", "nobody.txt"
-    told = CliRunner().invoke(cli, words)
-    assert (told.exit_code, "that waits; there are: better.txt" in told.stderr) == (2, True)
+    answered = CliRunner().invoke(cli, words)
+    assert (answered.exit_code, "that waits; there are: better.txt" in answered.stderr) == (2, True)
     assert check(runs, levels, "--confirm", "better.txt")[0] == 2
     assert check(runs, levels, *command, "--confirm", "better.txt")[0] == 0
     assert check(runs, levels, *command)[1].endswith("; rejected: none\n")
@@ -607,15 +607,15 @@ def test_a_near_copy_stays_one_where_the_first_run_is_withdrawn_and_comes_back(
         assert "Hal" not in {each.run.player for each in ranking.records}
         return [(each.place, each.run.player, each.run.remark) for each in ranking.tables[DIGEST][PLAYED, FASTEST]]
 
-    first, (_, _, said) = ranked()
-    assert (first, "the run by Ann in ann.txt" in said) == ((1, "Ann", ""), True)
+    first, (_, _, remark_text) = ranked()
+    assert (first, "the run by Ann in ann.txt" in remark_text) == ((1, "Ann", ""), True)
     (runs / "ann.txt").unlink()
-    assert ranked() == [(0, "Hal", f"{said} (found earlier)")]
+    assert ranked() == [(0, "Hal", f"{remark_text} (found earlier)")]
     (runs / "hal.txt").rename(runs / "again.txt")
-    assert ranked() == [(0, "Hal", f"{said} (found earlier)")], "another file is no way out"
+    assert ranked() == [(0, "Hal", f"{remark_text} (found earlier)")], "another file is no way out"
     put(runs, "z.txt", hers)
     for _ in range(2):
-        assert ranked() == [(1, "Ann", ""), (0, "Hal", said.replace("ann.txt", "z.txt"))]
+        assert ranked() == [(1, "Ann", ""), (0, "Hal", remark_text.replace("ann.txt", "z.txt"))]
 
 
 def test_of_two_runs_of_one_moment_the_later_file_is_marked_and_keeps_its_place(
@@ -703,7 +703,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(
     assert parsed.call_count == 2, "each is parsed once"
 
 
-def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_told(
+def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_reported(
     runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *_: None)
@@ -927,10 +927,10 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
         broken = page.evaluate(BROKEN)
         assert broken == [], name
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-        told = width < 700 and "/" in name  # the others have at most six columns
+        explained = width < 700 and "/" in name  # the others have at most six columns
         wide = "Array.from(document.querySelectorAll('.wide'), (each) => each.scrollWidth - each.clientWidth)"
         assert not any(page.evaluate(wide)), name
-        assert page.evaluate(SAID) == ["More of a run: on its page, where its time leads"] * told, name
+        assert page.evaluate(SAID) == ["More of a run: on its page, where its time leads"] * explained, name
     page.close()
 
 
@@ -1029,7 +1029,7 @@ def test_every_link_of_the_board_leads_to_a_file(hostile: Path) -> None:
         assert parsed.outcome == "exit"
 
 
-def test_pages_are_written_anew_but_never_over_something_else(runs: Path, levels: Path, tmp_path: Path) -> None:
+def test_pages_are_written_again_but_never_over_something_else(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "run.txt", replay(author="Ann"))
     board = board_of(runs, levels, tmp_path / "site")
     first = {path.relative_to(board): path.read_bytes() for path in board.rglob("*.*")}

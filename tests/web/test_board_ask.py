@@ -46,7 +46,7 @@ def test_a_level_with_assisted_runs_alone_says_so(runs: Path, levels: Path) -> N
     assert (code, "on Walk yet; assisted: 1, with --assisted" in text) == (2, True), text
 
 
-def test_a_faster_assisted_run_is_told(folder: Path, levels: Path, tmp_path: Path) -> None:
+def test_a_faster_assisted_run_is_reported(folder: Path, levels: Path, tmp_path: Path) -> None:
     put(folder, "cid.txt", slow_walk(3, author="Cid"))
     (folder / "ann.txt").unlink()
     put(folder, "bot.txt", replay(bytes(2) + WALKING + b"\2", author="Bot", made=Provenance(edits=3)))
@@ -74,7 +74,7 @@ def test_players_of_both_ladders_are_compared(folder: Path, levels: Path) -> Non
     assert [row["ladder"] for row in answer(folder, levels, "rank", "Walk", "Bot", "Bea")] == ["assisted", "played"]
 
 
-def test_a_faster_run_that_waits_is_told(runs: Path, levels: Path, tmp_path: Path) -> None:
+def test_a_faster_run_that_waits_is_reported(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "ann.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Ann"))
     put(runs, "bob.txt", slow_walk(90, author="Bob"))
     taken_in_earlier(runs, levels, data := tmp_path / "board.json")
@@ -110,10 +110,10 @@ def test_remarks_stand_beside_the_runs(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"))
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="\u0410nn"))
     near = "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"
-    said = f"{near}; the player's name looks like Ann and is another one"
-    assert [row["remark"] for row in answer(runs, levels, "rank", "Walk")] == ["", said]
+    remark = f"{near}; the player's name looks like Ann and is another one"
+    assert [row["remark"] for row in answer(runs, levels, "rank", "Walk")] == ["", remark]
     lines = ask(runs, levels, "rank", "Walk")[1].splitlines()
-    assert [line.partition("; note: ")[2] for line in lines] == ["", "", said]
+    assert [line.partition("; note: ")[2] for line in lines] == ["", "", remark]
 
 
 def test_inputs_are_counted(folder: Path, levels: Path) -> None:
@@ -156,7 +156,7 @@ def test_the_first_path_is_on_top() -> None:
 
 
 @pytest.mark.parametrize(
-    "words, told",
+    "words, reply",
     [
         (["rank", "nothing"], "is no level of the board; it has 3: 00-0 Walk, Spiked, <script>"),
         (["rank", "wlak"], "; do you mean Walk?"),
@@ -167,28 +167,28 @@ def test_the_first_path_is_on_top() -> None:
         (["rank", "Walk", "--assisted"], "on Walk yet; played: 3, without --assisted"),
     ],
 )  # fmt: skip
-def test_what_there_is_not_is_named(words: list[str], told: str, folder: Path, levels: Path) -> None:
+def test_what_there_is_not_is_named(words: list[str], reply: str, folder: Path, levels: Path) -> None:
     code, text = ask(folder, levels, *words)
-    assert (code, told in text) == (2, True), text
+    assert (code, reply in text) == (2, True), text
 
 
 def test_a_board_remembers_its_rules(folder: Path, levels: Path, tmp_path: Path) -> None:
     (rules := tmp_path / "board.toml").write_text('[[category]]\nname = "Slow"\nrank = ["-ticks"]\n', "utf-8")
     words = ["board", str(folder), "--levels", str(levels), "--jobs", "1"]
-    for more, told in ((["--rules", str(rules)], "00-0 Walk, slow, played:"), ([], "00-0 Walk, fastest, played:")):
+    for more, reply in ((["--rules", str(rules)], "00-0 Walk, slow, played:"), ([], "00-0 Walk, fastest, played:")):
         assert CliRunner().invoke(cli, [*words, *more]).exit_code == 0
         for _ in range(2):
-            assert told in CliRunner().invoke(cli, ["board", "ask", str(folder), "rank", "Walk"]).output
+            assert reply in CliRunner().invoke(cli, ["board", "ask", str(folder), "rank", "Walk"]).output
 
 
 def test_a_board_remembers_its_levels(folder: Path, levels: Path) -> None:
     """Without --levels, ask is about those of the last board on the folder."""
     words = ["board", "ask", str(folder), "rank", "Walk"]
     assert "is no level of the board" in CliRunner().invoke(cli, words).stderr
-    for pack, told in ((["--levels", str(levels)], "1. Ann: 0.575"), ([], "is no level of the board")):
+    for pack, reply in ((["--levels", str(levels)], "1. Ann: 0.575"), ([], "is no level of the board")):
         assert CliRunner().invoke(cli, ["board", str(folder), *pack, "--jobs", "1"]).exit_code == 0
         for _ in range(2):
-            assert told in CliRunner().invoke(cli, words).output
+            assert reply in CliRunner().invoke(cli, words).output
 
 
 def test_a_check_and_a_keeper_go_by_the_levels_and_rules_of_the_last_board(
@@ -222,7 +222,7 @@ def test_a_board_remembers_its_ledger(runs: Path, levels: Path, tmp_path: Path) 
         assert CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), *more]).exit_code == 0
 
 
-def test_who_has_no_run_is_told_near_names_once(folder: Path, levels: Path) -> None:
+def test_who_has_no_run_is_shown_near_names_once(folder: Path, levels: Path) -> None:
     put(folder, "tool.txt", replay(bytes(3) + WALKING + b"\2", author="Ann", made=Provenance(edits=3)))
     assert ask(folder, levels, "best", "Walk", "Anne")[1].endswith("'Anne' has no run there; players: Ann\n")
     code, text = ask(folder, levels, "best", "Walk", "Zoe")

@@ -93,9 +93,9 @@ def test_an_episode_of_own_runs_has_no_copies(runs: Path, tmp_path: Path) -> Non
         (runs / each.name).write_text(each.read_text())
     board(runs, PACK, "--json", str(data))
     episode(runs, author, RUNS, "0")
-    said = board(runs, PACK, "--check", str(data), "--site", str(pages))
-    assert f"new: 0.episode.txt: an episode in which {author} plays 5 levels as in an earlier run\n" in said
-    assert "copy" not in said
+    output = board(runs, PACK, "--check", str(data), "--site", str(pages))
+    assert f"new: 0.episode.txt: an episode in which {author} plays 5 levels as in an earlier run\n" in output
+    assert "copy" not in output
     found = judged(runs)
     assert (len(found.runs), found.rejected, len(found.again)) == (5, (), 5)
     assert "in one recording" in (pages / "board" / "episodes.html").read_text("utf-8")

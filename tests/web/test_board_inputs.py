@@ -92,15 +92,15 @@ def test_a_repository_in_the_folder_starts_no_command(inside: str, tmp_path: Pat
     assert mark.exists()
 
 
-def test_no_name_outside_the_folder_is_told(tmp_path: Path, levels: Path, runs: Path) -> None:
+def test_no_name_outside_the_folder_is_reported(tmp_path: Path, levels: Path, runs: Path) -> None:
     (tmp_path / "outside").mkdir()
     (tmp_path / "outside" / "secret-name.txt").write_text("x")
     (runs / "inner").symlink_to(tmp_path / "outside")
     (runs / "one.txt").symlink_to(tmp_path / "outside" / "secret-name.txt")
-    _, told = board(runs, levels, "--json", str(tmp_path / "board.json"))
-    assert "secret-name" not in told + (tmp_path / "board.json").read_text("utf-8")
-    assert "inner: a link; put the file itself here" in told
-    assert "one.txt: a link; put the file itself here" in told
+    _, reported = board(runs, levels, "--json", str(tmp_path / "board.json"))
+    assert "secret-name" not in reported + (tmp_path / "board.json").read_text("utf-8")
+    assert "inner: a link; put the file itself here" in reported
+    assert "one.txt: a link; put the file itself here" in reported
 
 
 def test_the_board_asks_no_other_program() -> None:
@@ -219,8 +219,8 @@ def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: 
     text = json.dumps({"version": 2, "runs": [ROW | {"file": "first.txt"}, ROW | BROKEN[broken]], "rejected": []})
     data = put(tmp_path, JSON, text)
     put(runs, "ann.txt", replay(author="Ann"))
-    code, said = board(runs, levels, option, str(data), "--site", str(tmp_path / "site"))
-    assert (code, "row 2 of 'runs'" in said) == (2, True), said
+    code, printed = board(runs, levels, option, str(data), "--site", str(tmp_path / "site"))
+    assert (code, "row 2 of 'runs'" in printed) == (2, True), printed
     assert data.read_text("utf-8") == text
 
 
@@ -286,10 +286,10 @@ def test_a_run_of_six_lines_asks_for_no_second_of_work(tmp_path: Path, levels: P
     put(runs, "ann.txt", f"ninja-game replay 3\nlevel-digest: {DIGEST}\nfinal-tick: 999999\ninputs:\n  .\n")
     put(runs, "bea.txt", record(bytes(3700) + WALKING))
     found = judge(runs, published_levels(levels), jobs=1)
-    told = [(each.kind, each.why) for each in found.rejected]
-    assert [kind for kind, _ in told] == ["unreadable", "refused"], told
-    assert re.search(r"ticks of 1. each, not over after [789],\d{3}; .* after its end$", told[0][1]), told
-    assert "it takes longer than the level gives" in told[1][1], told
+    reported = [(each.kind, each.why) for each in found.rejected]
+    assert [kind for kind, _ in reported] == ["unreadable", "refused"], reported
+    assert re.search(r"ticks of 1. each, not over after [789],\d{3}; .* after its end$", reported[0][1]), reported
+    assert "it takes longer than the level gives" in reported[1][1], reported
 
 
 def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: Path) -> None:
@@ -341,7 +341,7 @@ def test_a_name_is_one_player_however_it_is_typed(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["\u0410nn", "\u0391nn", "\u00c1nn", "\u1d00nn", "Ann\u0489"])
-def test_a_name_that_looks_like_another_is_told_and_not_merged(name: str) -> None:
+def test_a_name_that_looks_like_another_is_reported_and_not_merged(name: str) -> None:
     players = Players()
     players.meet("Ann")
     player, remark = players.meet(name)
@@ -356,9 +356,9 @@ SCRIPTS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name, told", SCRIPTS.items())
-def test_words_of_mixed_scripts_are_told(name: str, told: bool) -> None:
-    assert bool(Players().meet(name)[1]) == told
+@pytest.mark.parametrize("name, reported", SCRIPTS.items())
+def test_words_of_mixed_scripts_are_reported(name: str, reported: bool) -> None:
+    assert bool(Players().meet(name)[1]) == reported
 
 
 def test_names_without_a_letter_that_is_seen_are_unnamed() -> None:
@@ -397,7 +397,7 @@ def certificate() -> tuple[Path, bytes, str]:
 
 
 @pytest.mark.slow
-def test_one_key_changed_in_one_tick_is_told(tmp_path: Path) -> None:
+def test_one_key_changed_in_one_tick_is_reported(tmp_path: Path) -> None:
     shown = published_levels(data_folder("levels"))
     path, _, text = certificate()
     put(tmp_path, "runs/ann.txt", path.read_text("utf-8").replace("author:", "author: Ann #"))
@@ -493,8 +493,8 @@ def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
         assert _near_to_another("Ann", course, courses, players, 0) is None
         near = _near_to_another("Cid", course, courses, players, 200)
         assert near is not None
-        said = f"{750 + nearest} of the 1000 places on its way, and 0 of 0 presses and releases, are those of"
-        assert (near.numbers[0], *near[1:]) == (nearest, said, False)
+        remark = f"{750 + nearest} of the 1000 places on its way, and 0 of 0 presses and releases, are those of"
+        assert (near.numbers[0], *near[1:]) == (nearest, remark, False)
 
 
 def test_a_slower_run_leaves_for_a_faster_one_with_all_that_it_shares() -> None:

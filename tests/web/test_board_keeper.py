@@ -18,7 +18,7 @@ from tests.support.board import DIGEST, HOSTILE, board, put, slow_walk, taken_in
 from tests.support.forgeries import WALKING, record, replay
 
 
-def told(runs: Path, levels: Path, *words: str) -> str:
+def output_of(runs: Path, levels: Path, *words: str) -> str:
     """The error of a command on the board that goes wrong."""
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--jobs", "1", *words])
     assert (result.exit_code, "Traceback" in result.output) == (2, False), result.output
@@ -99,7 +99,7 @@ def test_many_files_are_decided_on_at_once(ledger: Path, runs: Path, levels: Pat
     moved = dict.fromkeys(("old/ann.txt", "old/bea/2.txt", "bea.txt"), "assisted")
     assert decided == moved | dict.fromkeys(("ann.txt", "tool.txt"), "rejected")
     for name in ("ol/", "nn", "/"):
-        assert "no run of the ledger" in told(runs, levels, *words, "--ladder", name, "played")
+        assert "no run of the ledger" in output_of(runs, levels, *words, "--ladder", name, "played")
 
 
 @pytest.mark.parametrize(
@@ -118,17 +118,17 @@ def test_a_decision_that_cannot_be_written_is_named(
     words: list[str], error: str, ledger: Path, runs: Path, levels: Path
 ) -> None:
     before = ledger.read_bytes()
-    assert error in " ".join(told(runs, levels, "--json", str(ledger), *words).split())
+    assert error in " ".join(output_of(runs, levels, "--json", str(ledger), *words).split())
     assert ledger.read_bytes() == before
     if error.startswith("no run"):
-        assert "name the ledger" in told(runs, levels, *words)
+        assert "name the ledger" in output_of(runs, levels, *words)
 
 
 def test_a_decision_of_another_kind_is_a_wrong_row(ledger: Path, runs: Path, levels: Path) -> None:
     board(runs, levels, "--json", str(ledger), "--ladder", "ann.txt", "assisted")
     text = ledger.read_text("utf-8")
     ledger.write_text(text.replace('"what": "assisted"', '"what": "banned"'), "utf-8")
-    assert "row 1 of 'decisions': 'what' is no decision" in told(runs, levels, "--json", str(ledger))
+    assert "row 1 of 'decisions': 'what' is no decision" in output_of(runs, levels, "--json", str(ledger))
 
 
 def test_dates_of_an_older_board_are_kept(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -171,7 +171,7 @@ def test_a_date_of_an_older_board_makes_no_near_copy(runs: Path, levels: Path, t
     rows = json.loads(data.read_text("utf-8"))["runs"]
     assert [(row["file"], "near" in row) for row in rows] == [("ann.txt", False), ("bob.txt", False), ("cid.txt", True)]
     data.write_text(data.read_text("utf-8").replace('"taken": "2026', '"taken": "x'), "utf-8")
-    assert "not a date" in told(runs, levels, *words)
+    assert "not a date" in output_of(runs, levels, *words)
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,9 @@ def test_a_row_of_dates_that_is_wrong_is_named(
 ) -> None:
     before = ledger.read_bytes()
     (tmp_path / "dates.csv").write_text(text, "utf-8")
-    assert error in " ".join(told(runs, levels, "--json", str(ledger), "--dates", str(tmp_path / "dates.csv")).split())
+    assert error in " ".join(
+        output_of(runs, levels, "--json", str(ledger), "--dates", str(tmp_path / "dates.csv")).split()
+    )
     assert ledger.read_bytes() == before
 
 
@@ -218,9 +220,11 @@ def test_a_run_without_an_author_is_a_player_of_its_own(runs: Path, levels: Path
     players = [row["player"] for row in json.loads(data.read_text("utf-8"))["runs"]]
     assert players == ["unknown (a.txt)", "unknown (b.txt)", "unknown (searched.txt)"]
     words = ["board", str(runs), "--levels", str(levels), "--site", str(tmp_path / "site"), "--jobs", "1"]
-    said = "3 runs by unknown players; name their players with: ninja-game convert FILE OUT --to replay --author NAME"
-    assert said in CliRunner().invoke(cli, words).stderr
-    assert said in (tmp_path / "site" / "board" / "players.html").read_text("utf-8")
+    printed = (
+        "3 runs by unknown players; name their players with: ninja-game convert FILE OUT --to replay --author NAME"
+    )
+    assert printed in CliRunner().invoke(cli, words).stderr
+    assert printed in (tmp_path / "site" / "board" / "players.html").read_text("utf-8")
     assert board(runs, levels, "--check", str(data)).startswith("nothing has changed")
     assert "moderated: a.txt" in board(runs, levels, "--json", str(data), "--reject", "a.txt", "--reason", "whose?")
 
@@ -257,9 +261,9 @@ def test_a_decision_is_of_the_run_that_a_file_holds_now(runs: Path, levels: Path
     board(runs, levels, "--json", str(ledger := tmp_path / "board.json"))
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "first.txt", replay(author="Ann"))
-    said = board(runs, levels, "--json", str(ledger), "--reject", "a.txt", "--reason", "spliced")
-    assert re.findall("^moderated: [a-z.]+", said, flags=re.MULTILINE) == ["moderated: a.txt"]
-    assert "1 run by 1 player" in said
+    printed = board(runs, levels, "--json", str(ledger), "--reject", "a.txt", "--reason", "spliced")
+    assert re.findall("^moderated: [a-z.]+", printed, flags=re.MULTILINE) == ["moderated: a.txt"]
+    assert "1 run by 1 player" in printed
     board(runs, levels, "--json", str(ledger), "--ladder", "a.txt", "assisted")
     assert [row["what"] for row in json.loads(ledger.read_text("utf-8"))["decisions"]] == ["assisted"]
 
@@ -298,13 +302,13 @@ def test_an_assisted_run_that_names_whose_it_was_does_not_wait(runs: Path, level
         keys = near[: 50 + number] + b"\0" + near[50 + number :]
         put(runs, f"{name}.txt", replay(keys, author=f"X{name}", made=made, co_authors=names))
     for _ in range(2):
-        said = board(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))
+        printed = board(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))
         waiting = "--confirm nobody.txt --confirm other.txt --confirm played.txt"
-        assert said.endswith(f"3 wait for confirmation: {waiting}\n"), said
+        assert printed.endswith(f"3 wait for confirmation: {waiting}\n"), printed
     assert "of the run by Ann in ann.txt, who is named as its origin" in level_page(tmp_path / "site")
     put(runs, "nobody.txt", (runs / "nobody.txt").read_text("utf-8").replace("edited 3", "edited 3 from a run by Ann"))
-    said = board(runs, levels, "--json", str(data))
-    assert said.endswith("2 wait for confirmation: --confirm other.txt --confirm played.txt\n"), said
+    printed = board(runs, levels, "--json", str(data))
+    assert printed.endswith("2 wait for confirmation: --confirm other.txt --confirm played.txt\n"), printed
 
 
 def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, levels: Path, tmp_path: Path) -> None:
@@ -316,16 +320,16 @@ def test_what_no_keyboard_can_do_is_put_on_the_assisted_ladder(runs: Path, level
     assert "refused: demo.txt: no keyboard can do that: in tick 0" in board(runs, levels, *words)
     assert "--ladder FILE assisted" in (site / "board" / "rejected.html").read_text("utf-8")
     for name, ladder in (("demo.txt", "played"), ("slow.txt", "assisted")):
-        assert "no run of the ledger in that file" in told(runs, levels, *words, "--ladder", name, ladder)
+        assert "no run of the ledger in that file" in output_of(runs, levels, *words, "--ladder", name, ladder)
     for more in (("--ladder", "demo.txt", "assisted", "--reason", "tools"), ()):
-        said = board(runs, levels, *words, *more)
-        assert ("refused: demo.txt" in said, "1 run by 1 player" in said) == (False, True)
+        printed = board(runs, levels, *words, *more)
+        assert ("refused: demo.txt" in printed, "1 run by 1 player" in printed) == (False, True)
         remark = "the jump key is down and was never pressed; moved to assisted by the keeper on 20"
         assert (remark in level_page(site), ">0.600<" in level_page(site)) == (True, True)
     (row,) = json.loads(ledger.read_text("utf-8"))["runs"]
     assert (row["file"], row["tick"]) == ("demo.txt", len(WALKING) + 1)
-    said = board(runs, levels, *words, "--reject", "demo.txt", "--reason", "whose?")
-    assert ("moderated: demo.txt" in said, "0 runs" in said) == (True, True)
+    printed = board(runs, levels, *words, "--reject", "demo.txt", "--reason", "whose?")
+    assert ("moderated: demo.txt" in printed, "0 runs" in printed) == (True, True)
     data = json.loads(ledger.read_text("utf-8"))
     ledger.write_text(json.dumps(data | {"decisions": []}), "utf-8")
     assert "refused: demo.txt: no keyboard" in board(runs, levels, *words)
@@ -336,5 +340,5 @@ def test_a_decision_judges_the_runs_once(
 ) -> None:
     judged = Mock(side_effect=judge._episodes)
     monkeypatch.setattr(judge, "_episodes", judged)
-    said = board(runs, levels, "--json", str(ledger), "--reject", "ann.txt", "--reason", "spliced")
-    assert ("moderated: ann.txt" in said, judged.call_count) == (True, 1)
+    printed = board(runs, levels, "--json", str(ledger), "--reject", "ann.txt", "--reason", "spliced")
+    assert ("moderated: ann.txt" in printed, judged.call_count) == (True, 1)

@@ -139,9 +139,9 @@ def test_pages_are_the_same_as_made_again(tmp_path: Path, levels: Path, runs: Pa
     for step in (["ann.txt"], ["bea.txt", "bad.txt"], ["cid.txt", "dan.txt"], ["-bea.txt"], ["-ann.txt"], ["bea.txt"]):
         for name in step:
             put(runs, name, some[name]) if name in some else (runs / name[1:]).unlink()
-        said = board(runs, levels, "--site", str(tmp_path / "site"))
+        printed = board(runs, levels, "--site", str(tmp_path / "site"))
         shutil.rmtree(tmp_path / "again", ignore_errors=True)
-        assert board(runs, levels, "--site", str(tmp_path / "again"), "--again") == said
+        assert board(runs, levels, "--site", str(tmp_path / "again"), "--again") == printed
         assert tree(tmp_path / "site") == tree(tmp_path / "again"), step
 
 
@@ -168,13 +168,13 @@ def test_the_command_after_the_first_compares_nothing(
     put(runs, "b.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
     put(runs, "c.txt", replay(bytes(2) + WALKING[:5] + b"\0" * 30 + WALKING, author="Cid"))
     put(runs, "d.txt", slow_walk(41, author="Dan"))
-    said = []
+    printed = []
     for _ in range(3):
-        told = board(runs, levels, "--json", str(data), "--site", str(site))
-        said.append((told, data.read_text("utf-8"), tree(site)))
+        report = board(runs, levels, "--json", str(data), "--site", str(site))
+        printed.append((report, data.read_text("utf-8"), tree(site)))
         assert (compared.call_count, simulated.call_count) == (4, 4)
-    assert said[0] == said[1] == said[2]
-    assert said[0][2][f"board/levels/{DIGEST[:16]}-runs.html"].count(b", of the same moment") == 2
+    assert printed[0] == printed[1] == printed[2]
+    assert printed[0][2][f"board/levels/{DIGEST[:16]}-runs.html"].count(b", of the same moment") == 2
     put(runs, "e.txt", slow_walk(42, author="Eve"))
     board(runs, levels, "--json", str(data), "--site", str(site))
     assert (compared.call_count, simulated.call_count) == (5, 9), "and the earlier ones are what it is compared with"
@@ -291,13 +291,13 @@ def test_a_broken_row_of_a_memo_is_none(
     site = tmp_path / "site"
     put(runs, "ann.txt", replay(author="Ann"))
     put(runs, "bea.txt", slow_walk(author="Bea"))
-    said = board(runs, levels, "--site", str(site))
+    printed = board(runs, levels, "--site", str(site))
     other = put(tmp_path, "other.txt", "of somebody")
     for path in board_cache.iterdir():
         names = {"../other.txt": broken, "": broken, "\0": broken, "/": broken, "board/../../other.txt": broken}
         path.write_text(json.dumps(dict.fromkeys(json.loads(path.read_text("utf-8")), broken) | names), "utf-8")
     simulated.clear()
-    assert board(runs, levels, "--site", str(site)) == said
+    assert board(runs, levels, "--site", str(site)) == printed
     assert simulated == ["ann.txt", "bea.txt"]
     assert other.exists()
 

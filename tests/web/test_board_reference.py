@@ -18,8 +18,7 @@ from ninja_game.runs.conversion import recorded_again
 from ninja_game.web.board.pages import BoardPages
 from tests.support.reference import recordings, require_reference, write_pack
 
-SECONDS = 60
-"""Of processor time on all cores: the machine of a test does other things too."""
+SECONDS = 60  # of processor time on all cores: the machine of a test does other things too
 
 
 @pytest.mark.slow

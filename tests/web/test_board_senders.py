@@ -28,8 +28,8 @@ def ledger(runs: Path, levels: Path, tmp_path: Path) -> Path:
     return data
 
 
-def waiting(said: str) -> list[str]:
-    return TO_CONFIRM.findall(said)
+def waiting(printed: str) -> list[str]:
+    return TO_CONFIRM.findall(printed)
 
 
 def rows(data: Path, part: str = "runs") -> dict[str, dict[str, object]]:
@@ -104,15 +104,15 @@ def test_a_confirmation_takes_in_a_new_run(ledger: Path, runs: Path, levels: Pat
     """The command that the last line of --check names is enough, for a near copy too."""
     put(runs, "mallory/b.txt", replay(author="Ann"))
     put(runs, "near/b.txt", replay(bytes(50) + WALKING[:-8] + b"\0" + WALKING, author="Bea"))
-    said = board(runs, levels, "--check", str(ledger))
-    assert waiting(said) == ["mallory/b.txt", "near/b.txt"]
-    words = [word for name in waiting(said) for word in ("--confirm", name)]
+    printed = board(runs, levels, "--check", str(ledger))
+    assert waiting(printed) == ["mallory/b.txt", "near/b.txt"]
+    words = [word for name in waiting(printed) for word in ("--confirm", name)]
     assert waiting(board(runs, levels, "--json", str(ledger), *words)) == []
-    assert [rows(ledger)[name]["confirmed"] for name in waiting(said)] == [True, True]
+    assert [rows(ledger)[name]["confirmed"] for name in waiting(printed)] == [True, True]
     before = ledger.read_bytes()
     command = ["board", str(runs), "--levels", str(levels), "--json", str(ledger), "--confirm", "ann/a.txt"]
-    told = CliRunner().invoke(cli, command)
-    assert (told.exit_code, "that waits; there are: none" in told.stderr) == (2, True)
+    result = CliRunner().invoke(cli, command)
+    assert (result.exit_code, "that waits; there are: none" in result.stderr) == (2, True)
     assert ledger.read_bytes() == before
 
 
@@ -120,8 +120,8 @@ def test_a_confirmation_takes_in_a_new_run(ledger: Path, runs: Path, levels: Pat
 def test_only_a_file_is_confirmed(name: str, ledger: Path, runs: Path, levels: Path) -> None:
     put(runs, "mallory/b.txt", replay(author="Ann"))
     command = ["board", str(runs), "--levels", str(levels), "--json", str(ledger), "--confirm", name]
-    told = CliRunner().invoke(cli, command)
-    assert (told.exit_code, "that waits; there are: mallory/b.txt" in told.stderr) == (2, True)
+    result = CliRunner().invoke(cli, command)
+    assert (result.exit_code, "that waits; there are: mallory/b.txt" in result.stderr) == (2, True)
 
 
 def test_a_run_by_somebody_else_is_not_the_players_any_more(
@@ -133,9 +133,11 @@ def test_a_run_by_somebody_else_is_not_the_players_any_more(
     taken_in_earlier(runs, levels, ledger)
     put(runs, "mallory/c.txt", replay(author="Mallory"))
     assert "copy: mallory/c.txt: a copy of the run by Ann in mallory/b.txt" in board(runs, levels, *words)
-    said = board(runs, levels, *words, "--disown", "mallory/b.txt", "--reason", "forged")
-    assert re.search(r"moderated: mallory/b.txt: not by Ann: rejected by the keeper on [-\d]+: forged\n", said), said
-    assert (waiting(said), "copy: " in said) == ([], False)
+    printed = board(runs, levels, *words, "--disown", "mallory/b.txt", "--reason", "forged")
+    assert re.search(r"moderated: mallory/b.txt: not by Ann: rejected by the keeper on [-\d]+: forged\n", printed), (
+        printed
+    )
+    assert (waiting(printed), "copy: " in printed) == ([], False)
     assert ">Ann<" not in (site / "board" / "rejected.html").read_text("utf-8")
     assert rows(ledger)["mallory/c.txt"]["player"] == "Mallory"
     (runs / "mallory" / "b.txt").unlink()

@@ -72,8 +72,8 @@ class Clone:
         self.git("add", "-A")
         self.git("commit", "-q", "-m", "a run")
         self.git("push", "-q", "-f", "origin", "change")
-        passed, said = self.run("Only runs are changed")
-        return self.run("What this does to the board") if passed else (False, said)
+        passed, output = self.run("Only runs are changed")
+        return self.run("What this does to the board") if passed else (False, output)
 
     def publishes(self, *before: tuple[str, ...]) -> dict[str, dict[str, object]]:
         """What the keeper does, then the steps that a push to main runs; the ledger's runs after it, by file."""
@@ -84,8 +84,8 @@ class Clone:
             self.git(*words)
         self.git("push", "-q", "origin", "main")
         for step in ("ninja-game board", "Keep the board as data, for the next check"):
-            passed, said = self.run(step)
-            assert passed, said
+            passed, output = self.run(step)
+            assert passed, output
         return {row["file"]: row for row in json.loads(self.git("show", "origin/main:board.json"))["runs"]}
 
     def page(self, name: str) -> str:

@@ -21,7 +21,7 @@ ELSEWHERE = (GAME_PAGE, "gallery/index.html", "app-folder/figures.js")
 
 
 class Tags(HTMLParser):
-    """``ids``: the anchors of a page; ``links``: all that it leads to or shows."""
+    """Reads a page. ``ids``: the anchors of a page; ``links``: all that it leads to or shows."""
 
     def __init__(self, text: str) -> None:
         super().__init__()

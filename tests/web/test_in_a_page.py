@@ -71,28 +71,28 @@ def modules():
 
 
 @pytest.fixture(scope="module")
-def told(python: Any) -> Any:
+def report(python: Any) -> Any:
     """What an action of the page above tells."""
     python.evaluate("text => { python.runPython(text); }", START)
     return lambda action: json.loads(python.evaluate("name => python.globals.get('told')(name)", action))
 
 
 @pytest.mark.parametrize("action", ["daily", "film", "certify"])
-def test_what_only_a_desktop_can_do_is_said(action: str, told: Any) -> None:
-    assert ONLY_ON_A_DESKTOP in told(action)
+def test_what_only_a_desktop_can_do_is_said(action: str, report: Any) -> None:
+    assert ONLY_ON_A_DESKTOP in report(action)
 
 
-def test_pictures_are_saved_as_png(told: Any) -> None:
+def test_pictures_are_saved_as_png(report: Any) -> None:
     png = b"\x89PNG\r\n\x1a\n".hex()
-    assert told("picture") == [png, *SIZE]
-    assert told("level_picture") == [png, LEVEL_PICTURE_WIDTH, round(LEVEL_PICTURE_WIDTH * 600 / 792)]
+    assert report("picture") == [png, *SIZE]
+    assert report("level_picture") == [png, LEVEL_PICTURE_WIDTH, round(LEVEL_PICTURE_WIDTH * 600 / 792)]
 
 
-def test_the_editor_judges_a_level_without_a_thread(told: Any) -> None:
-    assert told("findings") is True
+def test_the_editor_judges_a_level_without_a_thread(report: Any) -> None:
+    assert report("findings") is True
 
 
-def test_only_what_is_needed_is_loaded(told: Any) -> None:
-    loaded = set(told("modules"))
+def test_only_what_is_needed_is_loaded(report: Any) -> None:
+    loaded = set(report("modules"))
     assert {"ninja_game", "pygame", "sqlite3"} <= loaded
     assert not loaded & {"numpy", "click", "rich", "platformdirs", "PIL", "numba", "multiprocessing", "asyncio.events"}

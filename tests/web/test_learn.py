@@ -25,13 +25,11 @@ from tests.support.slow import the_rest_is_slow
 from tests.support.visitor import Visitor, eventually
 from tests.support.web_page import served
 
-CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "learn").glob("[0-9]*.md"))[:12]
-"""Those with figures."""
+CHAPTERS = sorted((Path(__file__).parents[2] / "docs" / "learn").glob("[0-9]*.md"))[:12]  # those with figures
 PROGRAM = re.compile(r"^```python try\n(.*?)^```\n\nIt prints:\n\n^```text\n(.*?)^```", re.MULTILINE | re.DOTALL)
 """A program of a chapter, and what the chapter says that it prints."""
 
-MAX_TICKS = 120
-"""After a reset, in which a figure that moves by itself is looked at."""
+MAX_TICKS = 120  # after a reset, in which a figure that moves by itself is looked at
 
 Numbers = list[tuple[str, str]]
 

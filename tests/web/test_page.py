@@ -24,8 +24,7 @@ from tests.support.visitor import eventually
 from tests.support.web_page import served
 
 TEXT = "0" * 713 + "|5^100,566!11^160,564,130,564"
-LEVEL = parse_level_string(TEXT)
-"""Who runs right passes."""
+LEVEL = parse_level_string(TEXT)  # who runs right passes
 
 CERTIFICATE = Path(__file__).parents[2] / "levels" / "certificates" / "00-0-first-steps.exit.replay.txt"
 
@@ -110,7 +109,7 @@ def test_a_link_of_a_level_is_played_at_once_and_the_data_move_to_another_browse
     other.page.click("#panel-open")
     other.page.set_input_files("#panel input[accept='.zip']", tmp_path / "player.zip")
     other.page.get_by_text("1 new replays in the records").wait_for()
-    with other.loading_anew():
+    with other.loading_again():
         other.page.get_by_role("button", name="Back to the game").click()
     other.until("menu")
     assert other.python("len(app.player.records.level_bests())") == 1
@@ -130,7 +129,7 @@ def test_a_link_of_replays_is_watched_with_a_ghost(new_visitor: NewVisitor) -> N
 
 
 @pytest.mark.slow
-def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
+def test_touch_passes_a_level(new_visitor: NewVisitor) -> None:
     visitor = new_visitor(viewport={"width": 844, "height": 390}, has_touch=True, is_mobile=True, device_scale_factor=2)
     visitor.visit(level_link(LEVEL))
     visitor.until("ready")
@@ -166,7 +165,7 @@ def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
     visitor.page.get_by_role("button", name="Back to the game").tap()
     for again in (False, True):
         if again:
-            with visitor.loading_anew():
+            with visitor.loading_again():
                 visitor.page.reload()
             visitor.until("ready")
         left = visitor.page.get_by_role("button", name="Jump").bounding_box()
@@ -176,7 +175,7 @@ def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
     assert visitor.problems == []
 
 
-def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: NewVisitor) -> None:
+def test_what_throws_in_a_turn_is_reported_and_nothing_foreign_runs(new_visitor: NewVisitor) -> None:
     visitor = new_visitor()
     visitor.visit()
     assert visitor.problems == []
@@ -194,7 +193,7 @@ def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: New
     trouble.get_by_role("button", name="Copy the text").click()
     trouble.get_by_text("Copied").wait_for()
     assert "ZeroDivisionError" in visitor.page.evaluate("navigator.clipboard.readText()")
-    with visitor.loading_anew():
+    with visitor.loading_again():
         trouble.get_by_role("button", name="Load the page again").click()
     visitor.until("menu")
 
@@ -245,9 +244,9 @@ def test_verdicts_in_the_page_are_those_of_the_command(new_visitor: NewVisitor, 
         visitor.page.set_input_files("#panel input[type=file]", file)
         visitor.page.locator("#verdicts", has_text=file.name).locator("table").wait_for()
         shown = json.loads(visitor.page.locator("#verdicts pre").text_content())
-        said = json.loads(CliRunner().invoke(cli, ["verify", "--json", str(file)]).stdout)
-        assert shown | {"file": str(file)} == said
-        assert all(problem in visitor.page.locator("#verdicts").inner_text() for problem in said.get("problems", ()))
+        verdict = json.loads(CliRunner().invoke(cli, ["verify", "--json", str(file)]).stdout)
+        assert shown | {"file": str(file)} == verdict
+        assert all(problem in visitor.page.locator("#verdicts").inner_text() for problem in verdict.get("problems", ()))
     assert "first difference" in visitor.page.locator("#verdicts").inner_text()
     visitor.page.set_input_files("#panel input[type=file]", [{"name": "x", "mimeType": "", "buffer": b"\0\1"}])
     visitor.page.get_by_text("not a text file").wait_for()

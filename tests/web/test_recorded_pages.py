@@ -19,8 +19,7 @@ from tests.support.recorded import hold_against
 from tests.support.samples import replay_of_walk
 
 GOLDEN = Path(__file__).parent / "golden" / "pages.txt"
-LONG = re.compile(r'((?: d|content|viewBox)="|#level=)[^"]*')
-"""What is long, and other where a library is."""
+LONG = re.compile(r'((?: d|content|viewBox)="|#level=)[^"]*')  # what is long, and other where a library is
 
 
 def board(folder: Path) -> Path:

@@ -175,8 +175,8 @@ def test_a_folder_that_board_has_made_becomes_a_site(pyodide: Path, tmp_path: Pa
     out, runs = tmp_path / "out", tmp_path / "runs"
     runs.mkdir()
     (runs / "a.txt").write_text(bundled_replays()[0].read_text("utf-8"), "utf-8")
-    told = CliRunner().invoke(cli, ["board", str(runs), "--site", str(out), "--jobs", "1"])
-    assert f"ninja-game site {out}" in told.stderr
+    printed = CliRunner().invoke(cli, ["board", str(runs), "--site", str(out), "--jobs", "1"])
+    assert f"ninja-game site {out}" in printed.stderr
     pages = names_in(out)
     assert {path.name for path in out.iterdir()} == {"board", "replays"}
     (out / "mine.txt").write_text("mine")

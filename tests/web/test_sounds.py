@@ -55,7 +55,7 @@ def test_a_loop_is_decoded_to_its_last_sample(name: str, root: Path, python: Any
 
 
 @pytest.mark.parametrize("data", [b"", b"RIFF" + bytes(60), b"Ogg"])
-def test_the_page_refuses_what_is_no_sound(data: bytes, python: Any) -> None:
+def test_the_page_refuses_what_is_not_a_sound(data: bytes, python: Any) -> None:
     assert python.evaluate(START, base64.b64encode(data).decode()) == -1
 
 

@@ -38,8 +38,7 @@ HOSTILE = (
     "\"><svg onload=document.title='owned'>", "javascript:document.title='owned'", "'-alert(1)-'", "{{7*7}}${7*7}",
     "</title><script>document.title='owned'</script>", "\u202egnp.exe", "\x00\x1b[2J", "W" * 300, "&lt;b&gt;",
 )  # fmt: skip
-PUBLIC = "https://example.org/game/"
-"""Where the site says that it will be."""
+PUBLIC = "https://example.org/game/"  # where the site says that it will be
 PHONE, NARROWEST = {"width": 390, "height": 844}, {"width": 320, "height": 640}
 
 

@@ -29,11 +29,8 @@ from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, ObjectSpec, well_f
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from tools import ROOT
 
-SHAPES = range(2, 34)
-"""Ids of the tiles that are neither empty nor full."""
-
-MOTIF = 5, 3
-"""Columns and rows of a motif."""
+SHAPES = range(2, 34)  # ids of the tiles that are neither empty nor full
+MOTIF = 5, 3  # columns and rows of a motif
 MOTIF_SHAPES = 3
 """A motif has at least so many cells with a shape, not all of one straight slope: nobody copies a slope."""
 STRAIGHT = {2: "45°", 14: "22°", 18: "22°", 22: "67°", 26: "67°"}
@@ -100,8 +97,7 @@ DESIGN = {
 }
 """Of 334 levels with the best recorded run: what docs/good-levels.md counts (`ninja_game.runs.level_design`)."""
 
-DIFFICULTY = Row("difficulty", 2.71, 5.58, 9.9)
-"""Of the best recorded runs on 334 levels of the reference."""
+DIFFICULTY = Row("difficulty", 2.71, 5.58, 9.9)  # of the best recorded runs on 334 levels of the reference
 
 KINDS_OF_REFERENCE = {
     "bounce block": 41, "launch pad": 30, "gauss turret": 36, "floor guard": 28, "drone": 64, "one-way platform": 12,
@@ -216,8 +212,7 @@ def quartiles(values: Sequence[float]) -> tuple[float, float, float]:
     return first, middle, third
 
 
-HEADING = "## The figures"
-"""Of the page docs/level-set.md, below which the tables stand."""
+HEADING = "## The figures"  # of the page docs/level-set.md, below which the tables stand
 
 MAX_SHARED = 0.6
 """Share of their solid cells that two levels may have in common at most. Caves in rock share much of the rock."""

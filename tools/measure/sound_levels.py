@@ -27,8 +27,7 @@ from tools.sounds.music import TRACKS
 PAGE = ROOT / "docs" / "sound.md"
 HEADING = "## Measured\n"
 
-WARNINGS = ("rocket-launch", "rocket-flight", "laser-charge", "chase", "turret-lock")
-"""Sounds that say: get away."""
+WARNINGS = ("rocket-launch", "rocket-flight", "laser-charge", "chase", "turret-lock")  # sounds that say: get away
 
 
 class Measured(NamedTuple):

@@ -77,7 +77,7 @@ _FILE = re.compile(r"^--- ([\w-][\w.-]{0,80})\n", re.MULTILINE)
 
 
 class EntryPoint(NamedTuple):
-    """``read``: takes bytes, and an empty folder for the files that it wants. ``share``: of the tries it gets."""
+    """What is tried. ``read``: takes bytes and an empty folder for the files that it wants. ``share``: of the tries."""
 
     read: Callable[[bytes, Path], object]
     share: int = 20

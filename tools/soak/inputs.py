@@ -38,11 +38,8 @@ from tools.soak.mutators import mutated
 
 SLOW_S, HANGS_S = 2.0, 20.0
 """Processor time of an input that is a finding, and after which its reading is ended; a busy machine does not count."""
-WATCHED = 5
-"""How much longer code takes that tells where it is."""
-
-MEMORY = 4 * 2**30
-"""Of the whole process, address space."""
+WATCHED = 5  # how much longer code takes that tells where it is
+MEMORY = 4 * 2**30  # of the whole process, address space
 
 OWN = {
     "levels/*.txt": {"ascii level", "any levels", "archive"},

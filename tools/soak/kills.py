@@ -45,14 +45,9 @@ from ninja_game.tas.session import TasSession
 from ninja_game.tas.tracks import InputTrack
 from tests.support.samples import replay_of_walk
 
-PATIENCE = 120.0
-"""Seconds to wait for a word of a child."""
-
-Fact = tuple[str, str, int]
-"""What a child says: the kind of fact, such as "saved", what it is about, a number."""
-
-RUN = "walk.replay.txt"
-"""The file that the TAS editor edits."""
+PATIENCE = 120.0  # seconds to wait for a word of a child
+Fact = tuple[str, str, int]  # what a child says: the kind of fact, such as "saved", what it is about, a number
+RUN = "walk.replay.txt"  # the file that the TAS editor edits
 
 # --- the children: each works for ever, saying each time what is saved ---
 
@@ -273,7 +268,7 @@ class Track:
     def losses(self, folder: Path, facts: list[Fact]) -> Iterator[str]:
         """More edits than one that are lost, or a file that is not as it was saved."""
         # What changes nothing, such as undo without an edit, is not an edit that could be lost.
-        said = [each for each, _ in groupby([self.last, *(each for kind, each, _ in facts if kind == "edited")])]
+        edits = [each for each, _ in groupby([self.last, *(each for kind, each, _ in facts if kind == "edited")])]
         for kind, each, _ in facts:
             self.saved = {each} if kind == "saved" else self.saved | {each} if kind == "about" else self.saved
         await_locks(folder)
@@ -284,7 +279,7 @@ class Track:
         before = digest_of_track(session.track)
         session.history.redo()
         session.close(keep=True)
-        if (lost := min((said[::-1].index(each) for each in (self.last, before) if each in said), default=0)) > 1:
+        if (lost := min((edits[::-1].index(each) for each in (self.last, before) if each in edits), default=0)) > 1:
             yield f"{lost} edits lost"
         if digest_of_track(open_run(folder / RUN).track) not in self.saved:
             yield "the file is not as it was saved"
@@ -304,7 +299,7 @@ def await_locks(folder: Path) -> None:
 
 
 class Trial(NamedTuple):
-    """``words``: how many a child says at least; ``seconds``: after these, at which it is killed at the latest."""
+    """A child to kill. ``words``: how many it says at least; ``seconds``: after these, at the latest, it is killed."""
 
     child: Callable[[Path, Random, Connection], NoReturn]
     state: type[Game | Drawing | Track]
@@ -355,7 +350,7 @@ def kill_test(
 ) -> tuple[int, list[str]]:
     """Kill so many children; how many saves and edits they had told of, and everything that is wrong."""
     rng, trial = Random(seed), TRIALS[what]
-    told = 0
+    reported = 0
     wrong: list[str] = []
     for number in range(kills):
         # Every tenth folder is a new one, so that making the files is interrupted too.
@@ -364,15 +359,15 @@ def kill_test(
             state = trial.state(home)
         words = trial.words(rng)
         facts = life(what, home, rng.randrange(2**31), words, rng.random() * trial.seconds)
-        told += sum(kind != "about" for kind, _, _ in facts)
+        reported += sum(kind != "about" for kind, _, _ in facts)
         try:
             lost = [*state.losses(home, facts), *(["it did not start"] if words and not facts else [])]
         except (NinjaGameError, OSError) as error:
             lost = [str(error)]
         wrong += [f"kill {number + 1}: {text}" for text in lost]
         if report and (lost or (number + 1) % 10 == 0):
-            print(f"{number + 1} kills, {told} saves and edits, {len(wrong)} things wrong", flush=True)
-    return told, wrong
+            print(f"{number + 1} kills, {reported} saves and edits, {len(wrong)} things wrong", flush=True)
+    return reported, wrong
 
 
 def main() -> int:
@@ -383,8 +378,8 @@ def main() -> int:
     parser.add_argument("--what", choices=TRIALS, default="records")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        told, wrong = kill_test(folder=Path(folder), report=True, **vars(options))
-    print(*wrong, f"{options.kills} kills, {told} saves and edits, {len(wrong)} things wrong", sep="\n")
+        reported, wrong = kill_test(folder=Path(folder), report=True, **vars(options))
+    print(*wrong, f"{options.kills} kills, {reported} saves and edits, {len(wrong)} things wrong", sep="\n")
     return 1 if wrong else 0
 
 

@@ -15,8 +15,7 @@ from zipfile import ZIP_BZIP2, ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 import numpy as np
 
-MAX_BYTES = 150_000
-"""Longest input, bytes: more than this is a question of limits, not of forms."""
+MAX_BYTES = 150_000  # longest input, bytes: more than this is a question of limits, not of forms
 
 NUMBERS = (
     *("0", "-0", "00", "1", "-1", "0.5", "-0.0", "33", "34", "712", "713", "999999", "1000000", "1000001", "65535"),

@@ -12,8 +12,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-RATE = 44_100
-"""Samples a second."""
+RATE = 44_100  # samples a second
 
 Wave = NDArray[np.float64]
 

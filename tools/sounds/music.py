@@ -12,11 +12,8 @@ import numpy as np
 
 from tools.sounds.effects import RATE, Wave, at_level, bell, fade, filtered, glide, noise, spaced, times, tone
 
-SCALE = (0, 2, 4, 5, 7, 9, 11)
-"""Semitones of a major scale; degree 0 is G."""
-
-G = 98.0
-"""Hz."""
+SCALE = (0, 2, 4, 5, 7, 9, 11)  # semitones of a major scale; degree 0 is G
+G = 98.0  # Hz
 
 BARS, BEATS = 8, 4
 
@@ -48,8 +45,7 @@ BEDS = {
 """By name: a calm D, a warm G, A that turns like a machine, a wide C, an E that drives, B with its dark second."""
 
 LAYERS = ("base", "danger", "speed", "exit")
-LOUDNESS = {"base": -22.5, "danger": -28.5, "speed": -28.0, "exit": -26.0}
-"""Of each layer, LUFS."""
+LOUDNESS = {"base": -22.5, "danger": -28.5, "speed": -28.0, "exit": -26.0}  # of each layer, LUFS
 
 
 class Track:

@@ -42,8 +42,7 @@ class Inputs(NamedTuple):
     markers: tuple[Marker, ...] = ()
 
 
-Include = Callable[[str], tuple[str, str]]
-"""Turns a name in a text into a file's path and text. Raises ReplayError."""
+Include = Callable[[str], tuple[str, str]]  # Turns a name in a text into a file's path and text. Raises ReplayError.
 
 RepeatedKeys = tuple[int, str, int]  # keys that are down, "!", "-" or "" as mark, number of ticks
 

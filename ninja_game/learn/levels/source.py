@@ -52,9 +52,9 @@ class LevelSource:
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of {len(self.levels)} levels: {', '.join(self.names):.60}>"
 
-    def choose(self, draws: NDArray[np.uint64]) -> NDArray[np.intp]:
+    def choose(self, drawn: NDArray[np.uint64]) -> NDArray[np.intp]:
         """Choose the number of the level of each episode, (k,), by a random number of 64 bits for each."""
-        return (draws % np.uint64(len(self.levels))).astype(np.intp)
+        return (drawn % np.uint64(len(self.levels))).astype(np.intp)
 
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:
         """Learn from episodes that have ended: the numbers of their levels (k,), whether they were passed (k,)."""
@@ -178,10 +178,10 @@ class Curriculum(LevelSource):
         self.open = min(start, len(order))
         self.rates = np.zeros(len(order))
 
-    def choose(self, draws: NDArray[np.uint64]) -> NDArray[np.intp]:
+    def choose(self, drawn: NDArray[np.uint64]) -> NDArray[np.intp]:
         """Choose the number of the level of each episode, (k,), by a random number of 64 bits for each."""
         shares = np.cumsum(1.0 + UNPASSED_WEIGHT - self.rates[: self.open])
-        chosen: NDArray[np.intp] = np.searchsorted(shares, draws / 2.0**64 * shares[-1], side="right")
+        chosen: NDArray[np.intp] = np.searchsorted(shares, drawn / 2.0**64 * shares[-1], side="right")
         return np.minimum(chosen, self.open - 1)
 
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:

@@ -149,8 +149,8 @@ class LocalTiles(Part):
                 / unit
             )
 
-        kernel, kind = (observe_tiles, np.int64) if self.form == "one-hot" else (observe_distances, np.float32)
-        return kernel, context.values(picture, kind), width, height, self.size
+        observe, kind = (observe_tiles, np.int64) if self.form == "one-hot" else (observe_distances, np.float32)
+        return observe, context.values(picture, kind), width, height, self.size
 
 
 @kernel

@@ -63,11 +63,8 @@ palette shows; W A S D turn them. Without a mouse: arrows move the pointer, Spac
 what is selected."""
 
 
-NAMELESS = "My level"
-"""The name of a level to which its maker gave none."""
-
-Begun = tuple[bytes, int]
-"""What a test begins with: ``lead`` and ``deaths`` of a Playthrough."""
+NAMELESS = "My level"  # the name of a level to which its maker gave none
+Begun = tuple[bytes, int]  # what a test begins with: ``lead`` and ``deaths`` of a Playthrough
 
 NOTHING_BEGUN: Begun = b"", 0
 
@@ -75,8 +72,7 @@ _IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "cert
 
 IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
 
-STAMPS_SHOWN = 10
-"""The most stamps in their menu, the newest."""
+STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
 
 _MIRRORS = {
     "off": "off",

@@ -57,11 +57,9 @@ from ninja_game.view.places import Things
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
 _ROW, _TOP, _WIDE = 112, 60, 294
-SHOWN = 4
-"""Rows that are shown at once."""
+SHOWN = 4  # rows that are shown at once
 END = _TOP + _ROW * SHOWN
-_PICTURE: Area = (342, _TOP, 422, 422 * HEIGHT / WIDTH)
-"""Where the level is shown with the selected message."""
+_PICTURE: Area = (342, _TOP, 422, 422 * HEIGHT / WIDTH)  # where the level is shown with the selected message
 
 _WHEN = {
     "start": ("At the start", "At each start, until the exit is open"),
@@ -83,8 +81,7 @@ _HELP = (
     "In a level with messages the game gives no help of its own in play.",
 )
 
-_HANDLE = 9.0
-"""Side of the handles of the selected frame, px of the level."""
+_HANDLE = 9.0  # side of the handles of the selected frame, px of the level
 
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
@@ -121,8 +118,9 @@ class _Stage:
 
 
 class MessagesScreen(MenuScreen):
-    """``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
+    """The list of a level's messages, with the selected one in the level.
 
+    ``here``: the default cell of a new message near a place. ``put``: gets the new value of the header.
     ``test``: plays the level with such a value from just before a message, by its number and its place, if known.
     ``at``: the number of the message that gets the focus. ``mood``: in which the level is played.
     ``certifying_inputs``: gives those of its author's run, if any.

@@ -34,12 +34,10 @@ from ninja_game.view.sprites.static_sprites import PlacedSprite, door_place, sta
 from ninja_game.view.sprites.tile_sheet import tile_picture
 
 _NINJA = ObjectSpec(kinds.NINJA, (36.0, 36.0))
-_TOGETHER = 1000
-"""Objects that one world is built with: its memory holds a few thousand."""
+_TOGETHER = 1000  # objects that one world is built with: its memory holds a few thousand
 _KEPT = 4000
 
-_HIDDEN = 4
-"""Opacity in eighths of a door that a player cannot see yet."""
+_HIDDEN = 4  # opacity in eighths of a door that a player cannot see yet
 
 
 @drawing(FIGURE_REACH)
@@ -150,10 +148,8 @@ class ObjectPictures:
 
 TILE, OBJECT, KEY = 16.0, 28.0, 8.0
 """Sides of the squares of tiles and objects, and the height of the key below an object, px."""
-_BLOCK, BLOCK_ROW = 42.5, 35.0
-"""Distance between two families of tiles, across and down, px."""
-_OBJECTS = 104.0
-"""Distance from the top to the objects, px."""
+_BLOCK, BLOCK_ROW = 42.5, 35.0  # distance between two families of tiles, across and down, px
+_OBJECTS = 104.0  # distance from the top to the objects, px
 OBJECTS_PER_ROW = 6
 
 TILE_ORDER = (brush.EMPTY, brush.FULL, *(tile for family in brush.FAMILIES for tile in family.tiles))
@@ -166,8 +162,7 @@ CHANGES: dict[str, dict[str, str | int]] = {
 }
 """The letters that change each property of the drawn or selected objects: to a word, or by a number of words."""
 
-PaletteEntry = int | brush.ObjectType
-"""A tile or a type of objects."""
+PaletteEntry = int | brush.ObjectType  # a tile or a type of objects
 
 _FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
 _ENTRY_OF_KEY: dict[str, PaletteEntry] = {

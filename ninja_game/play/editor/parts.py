@@ -46,8 +46,7 @@ from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
 _ROW = 22.5
 
-_MESSAGE_LINES = 4
-"""The most lines of a message in the panel."""
+_MESSAGE_LINES = 4  # the most lines of a message in the panel
 
 _OPENS = "Its text, moment, place and frame; a double click on the bubble opens it too"
 
@@ -93,8 +92,7 @@ def _turning(view: EditorView) -> Callable[[Area], Sequence[Widget]]:
     )
 
 
-_Row = Callable[[Area], Widget | Sequence[Widget]]
-"""Makes the widgets of a row in its place."""
+_Row = Callable[[Area], Widget | Sequence[Widget]]  # makes the widgets of a row in its place
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
@@ -198,9 +196,9 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
-        able, word = most > 1 + (share is None), head or "Align"
-        hint = f"{word} the selected objects: {text.lower()}"
-        why = f"{word} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
+        able, verb = most > 1 + (share is None), head or "Align"
+        hint = f"{verb} the selected objects: {text.lower()}"
+        why = f"{verb} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
         buttons.append((text, partial(tools.arrange, axis, share) if able else None, hint if able else why))
     return _row(buttons, head, 30)
 
@@ -410,8 +408,8 @@ class Properties(EditorPart):
 
     def refresh(self) -> None:
         tools = self.session.tools
-        said = self.view.message is not None and (self.view.message, tools.draft.says)
-        about = tools.tool == "select" and tools.takes, tools.pastes_empty, said, *panel_key(tools)
+        message = self.view.message is not None and (self.view.message, tools.draft.says)
+        about = tools.tool == "select" and tools.takes, tools.pastes_empty, message, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
@@ -599,7 +597,7 @@ class _Find(TextEntry):
 
 
 class ObjectList(EditorPart):
-    """``shown``: the numbers of the objects whose texts contain all the words of the search."""
+    """The level's objects. ``shown``: the numbers of those whose texts contain all the words of the search."""
 
     area = LAYOUT.palette
     ground = "panel", (612, 26, 176, 230)
@@ -638,7 +636,7 @@ class ObjectList(EditorPart):
         self._state = state
         words = self.find.text.lower().split()
         texts = map(object_text, tools.draft.objects)
-        self.shown = [number for number, text in enumerate(texts) if all(word in text for word in words)]
+        self.shown = [number for number, text in enumerate(texts) if all(part in text for part in words)]
         chosen = next((place for place, number in enumerate(self.shown) if number in tools.selection.numbers), None)
         self.list.index = self.list.index if chosen is None else chosen
         self.list.fill(self.shown)

@@ -40,17 +40,13 @@ from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.ui.widgets import next_option
 from ninja_game.view.sprites.thumbnail import thumbnail
 
-LOOK_SPACING = 0.5
-"""Seconds between two checks of the level's file."""
+LOOK_SPACING = 0.5  # seconds between two checks of the level's file
 
 UNREACHABLE_CODES = "unreachable", "unreachable-switch"
 """Codes of the findings about places that the ninja cannot reach."""
 
-CHECK_SPACING = 0.1
-"""Least seconds between two examinations of the level."""
-
-REST = 1.0
-"""Seconds without a change after which a search begins again with the level as it is."""
+CHECK_SPACING = 0.1  # least seconds between two examinations of the level
+REST = 1.0  # seconds without a change after which a search begins again with the level as it is
 
 LEVEL_PICTURE_WIDTH = 1584
 

@@ -32,16 +32,14 @@ from ninja_game.view.sprites.tile_sheet import TileSheet, rects_around, scrolled
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
 """Order of drawing: higher numbers lie in front."""
 
-_MANY = 60
-"""More rectangles than this are merged into one."""
-
-COVERED_ALPHA = 4
-"""Opacity in eighths of an object behind a tile."""
+_MANY = 60  # more rectangles than this are merged into one
+COVERED_ALPHA = 4  # opacity in eighths of an object behind a tile
 
 
 class LevelSheet:
-    """``surface``: the picture, without the pointer. ``canvas``: from px of the level to px of the sheet.
+    """The picture of a draft, drawn again only where it changes.
 
+    ``surface``: the picture, without the pointer. ``canvas``: from px of the level to px of the sheet.
     ``flat``: to px from the level's own corner, which do not change when another part is shown; used for marks. The
     next ``paint`` draws what ``show`` and the other methods have set.
     """
@@ -180,10 +178,8 @@ def united(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
 
 
 MIDDLE = (396.0, 300.0)
-SIGN = 7.0
-"""Half the height of a finding's sign, px."""
-SIGN_AWAY = 14.0
-"""From its cause, across and up, px."""
+SIGN = 7.0  # half the height of a finding's sign, px
+SIGN_AWAY = 14.0  # from its cause, across and up, px
 
 
 class Grid(NamedTuple):
@@ -265,7 +261,7 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     return LevelMark(draw, (canvas.rect(x - 11, y - 11, 22, 22),))
 
 
-def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
+def message_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     """The sign of a message: a bubble with three dots."""
     x, y = at
 
@@ -280,7 +276,7 @@ def said_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 @lru_cache(maxsize=4)
-def said_places(draft: Draft) -> Mapping[Point, int]:
+def message_places(draft: Draft) -> Mapping[Point, int]:
     """The centres of the cells with messages, and beside the ninja or the object of other moments, px.
 
     Each with the number of its first message. Cached: the status line asks in every frame.
@@ -296,7 +292,7 @@ def said_places(draft: Draft) -> Mapping[Point, int]:
 
 def message_near(draft: Draft, x: float, y: float) -> int | None:
     """The number of the message with its bubble, or its cell, at a point, px."""
-    near = (number for (a, b), number in said_places(draft).items() if max(abs(x - a), abs(y - b)) <= CELL / 2)
+    near = (number for (a, b), number in message_places(draft).items() if max(abs(x - a), abs(y - b)) <= CELL / 2)
     return next(near, None)
 
 
@@ -346,7 +342,7 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], said: Sequence[Point],
+    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], messages: Sequence[Point],
     axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by their contents: equal keys, equal marks. Those of ``before`` are used again."""
@@ -370,8 +366,8 @@ def level_marks(
                 add(("switch", spec), line)
     for route, colour in routes:
         add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
-    for at in said:
-        add(("said", at), partial(said_mark, canvas, palette, at))
+    for at in messages:
+        add(("message", at), partial(message_mark, canvas, palette, at))
     for at in signs[:100]:
         add(("sign", at), partial(sign_mark, canvas, palette, at))
     return marks

@@ -26,7 +26,7 @@ from ninja_game.play.editor.sheet import (
     finding_points,
     level_marks,
     message_near,
-    said_places,
+    message_places,
     united,
 )
 from ninja_game.play.workspace import Pane
@@ -41,14 +41,11 @@ from ninja_game.ui.widgets import Widget
 from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
-GHOST = 5
-"""Opacity of the preview of a press, in eighths."""
+GHOST = 5  # opacity of the preview of a press, in eighths
 NEAR_SWITCH_PX = 1.0
 """px; a preview nearer than this to a switch is not drawn: it would hide a switch that was just placed."""
-DOUBLE = 4
-"""Notches of the wheel that double the zoom."""
-EDGE_SPEED = 0.3
-"""Scrolling while something is dragged beyond an edge of the view, logical px per ms."""
+DOUBLE = 4  # notches of the wheel that double the zoom
+EDGE_SPEED = 0.3  # scrolling while something is dragged beyond an edge of the view, logical px per ms
 
 
 @drawing(13)
@@ -81,9 +78,9 @@ class Overlay:
         return changed
 
     def draw(
-        self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, said: Point | None, *, hovering: bool
+        self, surface: pygame.Surface, tools: EditorTools, reach: Reach | None, spot: Point | None, *, hovering: bool
     ) -> list[pygame.Rect]:
-        """Draw the overlay; gives the covered areas, px. ``said``: bubble of the selected message, px of the level."""
+        """Draw the overlay; gives the covered areas, px. ``spot``: bubble of the selected message, px of the level."""
         self.target.begin(surface)
         surface.set_clip(self.area)
         if reach:
@@ -97,8 +94,8 @@ class Overlay:
                 self.target.sprite(_ring("accent"), *places[part])
                 if SWITCH_PART in places:
                     self.target.line(self.sheet.palette.accent, *places[BODY_PART], *places[SWITCH_PART], 1.2)
-        if said:
-            self.target.sprite(_ring("accent"), *said)
+        if spot:
+            self.target.sprite(_ring("accent"), *spot)
         if tools.marquee:
             self._frame(area_between(*tools.marquee), self.sheet.palette.good)
         if hovering:
@@ -254,7 +251,7 @@ class EditorView(Pane):
         """The number of the selected message."""
         tools, number = self.session.tools, self._message
         selects = tools.tool == "select" and not tools.selection
-        return number if selects and number in said_places(tools.draft).values() else None
+        return number if selects and number in message_places(tools.draft).values() else None
 
     def _layout_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name, *self.camera.render_key
@@ -411,8 +408,8 @@ class EditorView(Pane):
         else:
             changed = self.overlay.restore(surface, dirty)
         reach = self.session.reach if self.hovering else None
-        said = next((at for at, number in said_places(tools.draft).items() if number == self.message), None)
-        return [*changed, *self.overlay.draw(surface, tools, reach, said, hovering=self.hovering)]
+        spot = next((at for at, number in message_places(tools.draft).items() if number == self.message), None)
+        return [*changed, *self.overlay.draw(surface, tools, reach, spot, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         session, palette = self.session, self.app.theme.palette
@@ -440,7 +437,7 @@ class EditorView(Pane):
             self.sheet.marks,
             lines=self.lines,
             signs=list(dict.fromkeys(signs)),
-            said=list(said_places(session.draft)),
+            messages=list(message_places(session.draft)),
             routes=routes if self.paths else (),
             tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
             axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),

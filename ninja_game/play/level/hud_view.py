@@ -45,8 +45,8 @@ def hud_view(play: LevelPlay) -> HudView:
     layout = playthrough.level.tiles, play.things, play.messages.place, play.message_spot
     is_advice = "\n" in text and play.messages.message is None
     of_start = play.messages.is_start or is_advice
-    said = level_text(text, key, attempt.gold, play.all_gold, play.messages.deaths)
-    message = placed_message(said, *layout, of_start=of_start) if text else None
+    shown = level_text(text, key, attempt.gold, play.all_gold, play.messages.deaths)
+    message = placed_message(shown, *layout, of_start=of_start) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))

@@ -19,8 +19,7 @@ from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_shelves import PackCell, called
 from ninja_game.play.panels.replays import watch_replays
 
-DELETED = "deleted"
-"""The folder of deleted packs among the player's files."""
+DELETED = "deleted"  # the folder of deleted packs among the player's files
 
 MADE = "Made, and opened in the editor"
 

@@ -230,6 +230,6 @@ def ask_about(desk: PackDesk, ready: ReadyPack) -> None:
         CANCEL,
     ]
     news, count = len(desk.packer.news(ready.problems)), len(ready.problems)
-    problems = counted(count, "open problem") if news == count else f"{counted(news, 'new problem')}, {count} open"
-    title = f"{shown_text(ready.pack.name)}: {problems}"
+    summary = counted(count, "open problem") if news == count else f"{counted(news, 'new problem')}, {count} open"
+    title = f"{shown_text(ready.pack.name)}: {summary}"
     desk.app.push(Menu(desk.app, title, rows, unasked=True))

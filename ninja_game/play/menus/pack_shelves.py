@@ -19,11 +19,8 @@ from ninja_game.ui.theme import Area, Theme, wrapped
 
 WIDE, HIGH = 93, 106
 
-_GAP = 12
-"""px by which cells move aside for a dragged one."""
-
-PULL = 6
-"""px that the mouse moves with its button down before a drag begins."""
+_GAP = 12  # px by which cells move aside for a dragged one
+PULL = 6  # px that the mouse moves with its button down before a drag begins
 
 
 class PackCell(NamedTuple):

@@ -26,14 +26,9 @@ from ninja_game.player.catalogue import Catalogue
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
 
-SECONDS, LONGER = 20.0, 300.0
-"""Time for each search of a run; for one whose earlier search failed."""
-
-NOT_FOUND = "no run found"
-"""The state of a level whose search has failed."""
-
-NOT_CERTIFIED = ("changed", "no run yet", "stopped")
-"""States of levels that may be impossible as they are."""
+SECONDS, LONGER = 20.0, 300.0  # time for each search of a run; for one whose earlier search failed
+NOT_FOUND = "no run found"  # the state of a level whose search has failed
+NOT_CERTIFIED = ("changed", "no run yet", "stopped")  # states of levels that may be impossible as they are
 
 
 class Packer(Aside):

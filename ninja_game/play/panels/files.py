@@ -19,11 +19,10 @@ _BOTTOM = 546.0
 
 
 class FilesScreen(MenuScreen):
-    """``folder``: the one that is shown; ``top``: the upper edge of the list, px."""
+    """A list of files to choose from. ``folder``: the one that is shown; ``top``: the upper edge of the list, px."""
 
     foot = "Enter opens a folder or a file; Esc goes back"
-    suffixes: Sequence[str] = ()
-    """Ends of the names of the files that are listed."""
+    suffixes: Sequence[str] = ()  #: ends of the names of the files that are listed
 
     def __init__(self, app: App, folder: Path, top: float = 62) -> None:
         super().__init__(app)

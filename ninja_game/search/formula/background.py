@@ -125,14 +125,10 @@ class SpanSearch:
         return tuple(self._tidy.get(result.inputs, result) for result in results)
 
 
-TIDYING_SECONDS = 0.1
-"""Seconds per report for the removal of idle keys."""
-_MAX_SECONDS = 1e6
-"""The time limit, s, of a search that ends only when it is cancelled."""
-MAX_JOBS = 4
-"""Jobs of a search of a whole run; a job may take a gigabyte."""
-WAY_SECONDS = 120.0
-"""Most seconds of the search for a way to the exit, for a run that ends before it."""
+TIDYING_SECONDS = 0.1  # seconds per report for the removal of idle keys
+_MAX_SECONDS = 1e6  # the time limit, s, of a search that ends only when it is cancelled
+MAX_JOBS = 4  # jobs of a search of a whole run; a job may take a gigabyte
+WAY_SECONDS = 120.0  # most seconds of the search for a way to the exit, for a run that ends before it
 NO_WAY = "No way to the exit was found from the end of this run: select ticks before, and take Reach the exit sooner."
 
 

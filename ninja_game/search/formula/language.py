@@ -20,17 +20,13 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
 
-FormulaValues = NDArray[np.float64]
-"""One number per world; 1 and 0 are true and false."""
+FormulaValues = NDArray[np.float64]  # one number per world; 1 and 0 are true and false
 
 Scope = Mapping[str, Callable[..., FormulaValues]]
 """The meaning of a formula's names in some worlds: functions of their arguments, which are numbers."""
 
-UNTRUE = -1000.0
-"""The margin of a false fact such as ``dead``, which has no distance."""
-
-FAR = " far"
-"""Suffix of a fact's name for its margin while it is false, below 0. Not every view has it."""
+UNTRUE = -1000.0  # the margin of a false fact such as ``dead``, which has no distance
+FAR = " far"  # Suffix of a fact's name for its margin while it is false, below 0. Not every view has it.
 
 MAX_LENGTH = 1000  # characters of a formula
 DEEPEST = 40  # levels of brackets and operators in it

@@ -31,22 +31,15 @@ from ninja_game.sim.states import OUTCOME_RUNNING
 
 METHODS = ("local", "beam", "exhaustive")
 
-WORLDS = 1024
-"""Worlds that are tried at once."""
-KEPT = 8
-"""Results that are kept."""
-_ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
-"""Left, right or neither, each with and without jump."""
+WORLDS = 1024  # worlds that are tried at once
+KEPT = 8  # results that are kept
+_ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)  # left, right or neither, each with and without jump
 ROUNDS, ROUNDS_BESIDE_LEGS = 40, 4
 """Rounds of small changes per turn; the second number holds while nothing is found and LegSearch is more useful."""
-TURNS_BESIDE = 6
-"""Searches along other runs per turn. Not tuned."""
-REPORT_TICKS = 100_000
-"""Ticks of a beam between two reports: a second on a slow machine."""
-_STEPS = (4, 6, 3, 8, 2, 12, 1)
-"""Ticks between two choices of a beam, one step size per beam."""
-_MAX_ENDS = 2_000_000
-"""Number of key sequences up to which all are tried."""
+TURNS_BESIDE = 6  # Searches along other runs per turn. Not tuned.
+REPORT_TICKS = 100_000  # ticks of a beam between two reports: a second on a slow machine
+_STEPS = (4, 6, 3, 8, 2, 12, 1)  # ticks between two choices of a beam, one step size per beam
+_MAX_ENDS = 2_000_000  # number of key sequences up to which all are tried
 
 
 @kernel

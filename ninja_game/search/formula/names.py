@@ -25,11 +25,8 @@ NAMES = {
 }  # fmt: skip
 """The names, and the number of their arguments in brackets; docs/speedruns.md explains them."""
 
-SPAN_NAMES = {**NAMES, "difference": 1}
-"""The names in a span search, which can compare with the run."""
-
-FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
-"""The names that are true or false."""
+SPAN_NAMES = {**NAMES, "difference": 1}  # the names in a span search, which can compare with the run
+FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")  # the names that are true or false
 
 
 def ninja_view(of: Callable[[str], FormulaValues]) -> dict[str, Callable[..., FormulaValues]]:
@@ -166,11 +163,8 @@ def flag_field(what: str, kind: int, id_: float) -> str:
 
 _SPEED = 4.0
 """px per tick of a field: it makes margins comparable to distances in formulas (6 px to the next point: 1.5 ticks)."""
-UNREACHABLE = -1.0 - _SPEED * FARTHEST
-"""The margin if no way leads to what makes a fact true."""
-
-Target = Callable[[int, float, float], DistanceField]
-"""The field of a target in a switch state, for a ninja at (x, y)."""
+UNREACHABLE = -1.0 - _SPEED * FARTHEST  # the margin if no way leads to what makes a fact true
+Target = Callable[[int, float, float], DistanceField]  # the field of a target in a switch state, for a ninja at (x, y)
 
 
 class Distances:

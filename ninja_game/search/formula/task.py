@@ -18,8 +18,7 @@ from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 
-MAX_SPAN = 4000
-"""Most ticks of a span."""
+MAX_SPAN = 4000  # most ticks of a span
 
 
 @dataclass(frozen=True)
@@ -328,5 +327,4 @@ def own_tick(task: SpanTask) -> int | None:
 ReportResults = Callable[[int, tuple[SpanResult, ...]], bool]
 """Gets the ticks run so far and the best results so far, best first; returning False ends the search."""
 
-ReportMiss = Callable[[SpanResult], object]
-"""Gets the nearest result as long as nothing has reached the goal."""
+ReportMiss = Callable[[SpanResult], object]  # gets the nearest result as long as nothing has reached the goal

@@ -30,8 +30,7 @@ from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOL
 from ninja_game.sim.schema.declare import fast
 from ninja_game.sim.schema.world_fields import TileMap, World
 
-BOX_HALF = RADIUS
-"""Half width and half height of the ninja as a box, px."""
+BOX_HALF = RADIUS  # half width and half height of the ninja as a box, px
 
 
 @fast

@@ -15,8 +15,7 @@ from ninja_game.sim.rules import CELL, HALF, RADIUS, ROOT2
 from ninja_game.sim.schema.declare import fast
 from ninja_game.sim.schema.world_fields import World
 
-NO_CONTACT, SIDE_CONTACT, SHAPE_CONTACT = 0, 1, 2
-"""Result kinds."""
+NO_CONTACT, SIDE_CONTACT, SHAPE_CONTACT = 0, 1, 2  # result kinds
 
 
 @fast

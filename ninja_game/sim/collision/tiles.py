@@ -21,10 +21,8 @@ from ninja_game.sim.schema.world_fields import TileMap, World
 EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67, UNDEFINED = range(11)
 """Tile classes. UNDEFINED is a malformed tile: never solid, but not empty for edges (world.md §2.3)."""
 
-ODD_HALF_ID = 34
-"""The id that replaces a tile id above 33: a half tile without orientation."""
-UNDEFINED_ID = 35
-"""The id that replaces a tile id below 0."""
+ODD_HALF_ID = 34  # the id that replaces a tile id above 33: a half tile without orientation
+UNDEFINED_ID = 35  # the id that replaces a tile id below 0
 
 _SIGNS = ((1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
 _HALF_SIGNS = ((0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0))
@@ -94,8 +92,7 @@ EDGE_OF_FACES = [OFF, INTERESTING, SOLID, OFF, INTERESTING, SOLID, OFF, INTEREST
 NEIGHBOUR_OFFSET = [1, STRIDE, -1, -STRIDE]
 """From a cell to its neighbour right, down, left, up: add this to the grid index."""
 UNIT_X = [1.0, 0.0, -1.0, 0.0]
-UNIT_Y = [0.0, 1.0, 0.0, -1.0]
-"""The unit vector of each direction number."""
+UNIT_Y = [0.0, 1.0, 0.0, -1.0]  # the unit vector of each direction number
 
 CENTRE_X = [0.0] * (GRID_CELLS)
 CENTRE_Y = [0.0] * (GRID_CELLS)

@@ -26,8 +26,7 @@ u1 = Annotated[int, "u1"]
 C = TypeVar("C")
 F = TypeVar("F", bound=Callable[..., Any])
 
-REGISTERED: set[Any] = set()
-"""Every function marked ``@fast``."""
+REGISTERED: set[Any] = set()  # every function marked ``@fast``
 
 KERNELS: dict[Any, str] = {}
 """The registered functions that Python calls, with their names: only they get wrappers and a place in the cache."""

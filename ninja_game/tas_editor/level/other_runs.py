@@ -33,10 +33,8 @@ from ninja_game.tas_editor.tabs.tab import EntryField
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.widgets import Button, Widget
 
-QUICK = RUN_BUDGET // 100
-"""Work that a run may cost in a list: 30 ms compiled, enough for a run of some ten minutes."""
-LOOK_SECONDS = 0.3
-"""Processor time for looking into the files of a folder."""
+QUICK = RUN_BUDGET // 100  # work that a run may cost in a list: 30 ms compiled, enough for a run of some ten minutes
+LOOK_SECONDS = 0.3  # processor time for looking into the files of a folder
 NONE_YET = "No other run is open: Ctrl+O opens one"
 
 

@@ -29,8 +29,7 @@ from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0  # px of the level within which the mouse points at an object
 _NEAR = 40.0  # px of the level within which a click goes to a tick
-_LEAP = 40.0
-"""Least gain in px for which a drag leaps to a part of the run that is many ticks away."""
+_LEAP = 40.0  # least gain in px for which a drag leaps to a part of the run that is many ticks away
 
 LINE = 13.0  # height of a text below the level, logical px
 

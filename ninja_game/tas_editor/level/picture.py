@@ -22,7 +22,7 @@ _GHOST_WARM = 12  # ticks of animation before a sought tick
 
 
 class RunGhost:
-    """``label``: the run's name. ``shade``: its colour, None: the palette's for ghosts. It has at least one tick."""
+    """Another run in the level, of one tick or more. ``label``: its name. ``shade``: None: the palette's for ghosts."""
 
     def __init__(self, trajectory: Trajectory, label: str = "", shade: pygame.Color | None = None) -> None:
         self.trajectory = trajectory
@@ -58,8 +58,7 @@ class RunGhost:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
 
-_WARM = 4
-"""Ticks run with animations before a sought one, so that it looks as if played."""
+_WARM = 4  # ticks run with animations before a sought one, so that it looks as if played
 _NEAR = 6  # most ticks that are played rather than sought
 
 
@@ -87,9 +86,9 @@ class CachedWorldSimulation(Simulation):
 
 
 class LevelPicture:
-    """``canvas``: from px of the level to px of ``surface``, where ``view`` draws. ``run``: the one shown.
+    """The level with its runs. ``canvas``: from px of the level to px of ``surface``, where ``view`` draws.
 
-    ``camera``: the visible part of the level; ``overlays``: those of the game.
+    ``run``: the one shown. ``camera``: the visible part of the level; ``overlays``: those of the game.
     """
 
     def __init__(self, editor: TasEditor) -> None:

@@ -16,7 +16,7 @@ from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 
 class Playing:
-    """``on``: it plays. ``speed``: a number of SPEEDS. ``clock``: shared with play by hand."""
+    """Playback of the run. ``on``: it plays. ``speed``: a number of SPEEDS. ``clock``: shared with play by hand."""
 
     def __init__(self, editor: TasEditor, picture: LevelPicture) -> None:
         self.editor = editor

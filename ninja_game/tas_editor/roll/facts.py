@@ -19,8 +19,7 @@ from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.values_tab import colour_of
 from ninja_game.ui.theme import Palette
 
-_PREVIEW, BEFORE = -1, -2
-"""Values of ``Compared.number`` for a run that is not among the other runs."""
+_PREVIEW, BEFORE = -1, -2  # values of ``Compared.number`` for a run that is not among the other runs
 
 
 class Compared(NamedTuple):
@@ -163,8 +162,7 @@ def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
     return [Values(*row) for row in zip(*(values.tolist() for values in rows), strict=True)]
 
 
-_MAX_ROWS = 400
-"""Most spans of equal keys whose changes are found one by one."""
+_MAX_ROWS = 400  # most spans of equal keys whose changes are found one by one
 
 
 def _spans(inputs: bytes) -> tuple[list[tuple[int, int]], list[int]]:

@@ -19,8 +19,7 @@ from ninja_game.ui.theme import Theme, mixed
 _MARGIN = 4  # the rows scroll when the cursor is in the first or the last of so many parts of the roll
 
 WHEEL_ROWS = 4
-SCROLL_MS = 25
-"""ms per row of scrolling beyond the edge, for each row (at most four) between the edge and the pointer."""
+SCROLL_MS = 25  # ms per row of scrolling beyond the edge, for each row (at most four) between the edge and the pointer
 
 
 class Roll(TasPart):

@@ -23,9 +23,9 @@ _BAR = 12.0  # width of the scroll bar
 
 
 class Column(NamedTuple):
-    """``width``: logical px; 0: the rest. ``decimals``: of a number. ``key``: the key shown.
+    """A column of the roll; one with a ``meaning`` may be hidden.
 
-    Columns with a ``meaning`` may be hidden.
+    ``width``: logical px; 0: the rest. ``decimals``: of a number. ``key``: the key shown.
     """
 
     name: str
@@ -104,7 +104,7 @@ STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
 
 
 class EventWord(NamedTuple):
-    """``chip``: background's role in the palette; ``ink``: the letters'."""
+    """The word for an event. ``chip``: background's role in the palette; ``ink``: the letters'."""
 
     word: str
     chip: str = ""

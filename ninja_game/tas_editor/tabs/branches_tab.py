@@ -15,8 +15,7 @@ from ninja_game.ui.widgets import Button
 _MAX_NAME = 60  # characters of a name
 
 _INDENT, _DEEPEST = 9, 12
-_COLUMNS = (174, 112, 64)
-"""Places of end, gold and difference, px from the right of a row."""
+_COLUMNS = (174, 112, 64)  # places of end, gold and difference, px from the right of a row
 
 
 class BranchesTab(Tab):

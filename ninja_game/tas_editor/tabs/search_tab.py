@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import NamedTuple
 
 import pygame
 
@@ -69,6 +70,14 @@ class PresetMenu(Menu):
         ]
 
 
+class _Preset(NamedTuple):
+    """A choice from the menu, and the goal that it gave for the ticks."""
+
+    name: str
+    make: Callable[[SearchedSpan], SpanGoal]
+    goal: SpanGoal
+
+
 class SearchTab(Tab):
     name = "Search"
 
@@ -82,7 +91,7 @@ class SearchTab(Tab):
         self.rest = False  #: whether what follows the goal is played, too
         self.method = "auto"
         self.results: SpanResults | None = None
-        self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal, str] | None = None
+        self._preset: _Preset | None = None
         self.proposed: SpanPieces | None = None
         self.earlier: list[tuple[SpanResults, SpanResult]] = []
         self._rows: list[tuple[SpanResults, SpanResult] | RunPiece] = []
@@ -154,8 +163,7 @@ class SearchTab(Tab):
         if self.results is not None and not self.results.running:
             self._end_search()
         if self._preset is not None and self._is_from_menu:
-            make, _, name = self._preset
-            self._fill(name, make if self.goal.text != "won" else lambda _: SpanGoal())
+            self._fill(self._preset.name, self._preset.make if self.goal.text != "won" else lambda _: SpanGoal())
 
     def propose(self) -> None:
         """Open a menu of common goals for the selected ticks; a choice fills the fields and starts."""
@@ -168,7 +176,8 @@ class SearchTab(Tab):
     @property
     def _is_from_menu(self) -> bool:
         """Whether a choice from the menu, or of a piece, has filled the fields."""
-        return self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]
+        goal = self._preset and self._preset.goal
+        return goal is not None and (self.goal.text, self.measure.text) == (goal.goal, goal.measure)
 
     def _fill(self, name: str, make: Callable[[SearchedSpan], SpanGoal], *, start: bool = False) -> None:
         try:
@@ -176,7 +185,7 @@ class SearchTab(Tab):
         except NinjaGameError as error:
             self.editor.app.notify(str(error))
             return
-        self._preset = make, goal, name
+        self._preset = _Preset(name, make, goal)
         self.goal.show(goal.goal)
         self.measure.show(goal.measure)
         self.order = EARLIEST if not goal.measure else SMALLEST if goal.least else GREATEST
@@ -245,7 +254,7 @@ class SearchTab(Tab):
     def _title(self, task: SpanTask) -> str:
         if self.method in IMPROVES:
             return "Whole run"
-        wanted = self._preset[2] if self._preset and self._is_from_menu else task.measure or task.goal
+        wanted = self._preset.name if self._preset and self._is_from_menu else task.measure or task.goal
         return f"{task.first}-{task.last - 1} {wanted[:MAX_TITLE]}"
 
     def _start_or_stop(self) -> None:

@@ -24,8 +24,7 @@ from ninja_game.ui.theme import Area, Palette, Theme, contains_point, run_colour
 from ninja_game.ui.widgets import Button, Widget
 
 MIN_SHOWN_TICKS = 10.0  # least ticks shown
-_STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
-"""Ticks between two numbers of the axis."""
+_STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)  # ticks between two numbers of the axis
 
 
 @dataclass

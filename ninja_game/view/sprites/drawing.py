@@ -128,10 +128,9 @@ class SpriteBook:
         self.sprite = lru_cache(maxsize=_KEPT)(self._drawn)
 
     def _drawn(self, key: SpriteKey) -> Sprite:
-        drawing = key.drawing
-        extent = drawing.extent if key.turn == 0 else _turned(drawing.extent)
+        extent = key.drawing.extent if key.turn == 0 else _turned(key.drawing.extent)
         sketch = Sketch(self.scale, extent, turn=key.turn)
-        drawing.paint(sketch, self.palette, *key.parameters)
+        key.drawing.paint(sketch, self.palette, *key.parameters)
         return sketch.finish(key.alpha / 8)
 
 

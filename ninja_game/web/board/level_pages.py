@@ -62,7 +62,7 @@ class LevelPages:
         self._compared: dict[tuple[RunKey, RunKey], list[int | None]] = {}
 
     def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
-        """``beside``: the runs of the level that are shown side by side."""
+        """Write the page of a run. ``beside``: the runs of the level that are shown side by side."""
         parts = self.parts
         stem, title = parts.stems[run.key], f"{parts.shown_name(run.player)} on {run.entry.title}"
         ranks, links, rival = list[tuple[str, str]](), list[Markup](), None

@@ -236,8 +236,8 @@ class BoardPages:
             order = "By how close the second is, in"
         for digest in chosen[:CONTESTED]:
             beaten = self.ranking.beaten[digest]
-            counts = counted(beaten, "record") + " beaten" if beaten else "", self._counts(digest)
-            about = joined(*(tag("span", text) for text in counts if text))
+            parts = counted(beaten, "record") + " beaten" if beaten else "", self._counts(digest)
+            about = joined(*(tag("span", text) for text in parts if text))
             spreads = (self._spread(digest, ladder) for ladder in self.ranking.ladders)
             shown.append(card(self.entries[digest], about, *self._best(digest), *spreads))
         caption = f"{order} {self.main.name}{self._of_both()}"
@@ -408,8 +408,8 @@ class BoardPages:
 
     def _placed(self, digest: str, ladder: str) -> list[Ranked]:
         """The runs with a place in the first category of a ladder, except those far behind."""
-        table = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
-        return [row for row in table if row.place and not row.is_far]
+        rows = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
+        return [row for row in rows if row.place and not row.is_far]
 
     def _counts(self, digest: str) -> str:
         """The numbers of a level's runs and players, over all ladders and categories."""
@@ -442,9 +442,9 @@ class BoardPages:
 
     def _rejected(self) -> None:
         parts, rejected, order = self.parts, self.ranking.judged.rejected, list(REJECTED_KINDS)
-        counts = Counter(item.kind for item in rejected)
+        by_kind = Counter(item.kind for item in rejected)
         kinds = ", ".join(
-            f"{title.lower()}: {counts[kind]}" for kind, (_, title, _) in REJECTED_KINDS.items() if counts[kind]
+            f"{title.lower()}: {by_kind[kind]}" for kind, (_, title, _) in REJECTED_KINDS.items() if by_kind[kind]
         )
         rows: list[tuple[Content, ...]] = [
             (

@@ -17,9 +17,9 @@ LONG_TURN = 0.02
 
 
 class _Game:
-    """``last``: the time of the last picture; ``due``: that of the next one, ms. ``top``: the screen it showed.
+    """The game of the page. ``last``: the time of the last picture; ``due``: that of the next one, ms.
 
-    ``late``: whether the last turn has left its picture to the next.
+    ``top``: the screen it showed. ``late``: whether the last turn has left its picture to the next.
     """
 
     app: App

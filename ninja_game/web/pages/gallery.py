@@ -117,8 +117,8 @@ def level_page(
         more,
     ]
     summary = ". ".join(f"{name}: {text}" for name, text in about)
-    picture = (site or UP) + picture_name(entry.digest)
-    return frame.page(entry.title, *contents, up=UP, links=links, picture=picture, description=named.comment or summary)
+    preview = (site or UP) + picture_name(entry.digest)
+    return frame.page(entry.title, *contents, up=UP, links=links, picture=preview, description=named.comment or summary)
 
 
 def run_page(
@@ -142,9 +142,9 @@ def run_page(
     drawn = tag("div", drawn) if drawn else level_image(entry, place)
     shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
     summary = ". ".join(f"{name}: {text}" for name, text in facts)
-    picture = (site or place) + picture_name(entry.digest)
+    preview = (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
-    return frame.page(title, shown, below, up=place, links=links, picture=picture, description=summary)
+    return frame.page(title, shown, below, up=place, links=links, picture=preview, description=summary)
 
 
 MAX_POINTS = 400  # points of a drawn path

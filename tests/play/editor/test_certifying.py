@@ -67,8 +67,8 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
-    told: list[str] = []
-    monkeypatch.setattr(room.app, "notify", lambda text, **_: told.append(text))
+    reports: list[str] = []
+    monkeypatch.setattr(room.app, "notify", lambda text, **_: reports.append(text))
     session, levels = room.editor.session, tmp_path / "levels"
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
@@ -90,7 +90,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     ready.set()
     session.certifier.solver.job.finish(LONGEST)
     assert (at_once, kept.exists()) == ([False, True], True)
-    assert told[-2:] == ["Room: certified, 0.975 s, kept with the level", "Other: no run in 20 s"]
+    assert reports[-2:] == ["Room: certified, 0.975 s, kept with the level", "Other: no run in 20 s"]
 
 
 def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
@@ -125,7 +125,7 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(
     monkeypatch.setattr("ninja_game.play.editor.session.REST", inf)
     assert session.certify_text == "Certify"
     run = verified_run(ROOM.level, with_press_bits(RIGHT))
-    for progress, best, said in (
+    for progress, best, status in (
         (Progress(seconds=12.2), None, "Stopped: no exit found in 12 s"),
         (Progress(seconds=3.0), run, "Stopped. Certified: 0.975 s"),
         (Progress(seconds=122.2), None, "Stopped: no exit found in 122 s"),
@@ -133,7 +133,7 @@ def test_the_button_stops_a_search_and_it_is_said_what_it_had_found(
         session.certifier.certification = Certification(room.draft.level, seconds=20.0, run=best, progress=progress)
         assert f"text 'Stop {progress.seconds:.0f}{' s' * (progress.seconds < 100)}'" in drawn(room.app), "it fits"
         room.mouse(*next(each for each in room.editor.widgets if getattr(each, "name", "") == "certify").centre)
-        assert (room.app.notice, session.certify_text) == (said, "Certify")
+        assert (room.app.notice, session.certify_text) == (status, "Certify")
     session.certifier.certification = Certification(room.draft.level, seconds=20.0, progress=Progress(seconds=1.0))
     room.drag((300, 300))
     assert session.certify_text == "Certify", "it would search the level as it is now"

@@ -676,15 +676,15 @@ def test_the_list_of_objects_finds_selects_and_orders_them_by_clicks(room: Maker
 
 
 def test_the_palette_says_what_is_in_hand_or_under_the_mouse(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
-    said = noted_texts(monkeypatch)
+    notices_seen = noted_texts(monkeypatch)
     room.press("4", "s")
-    assert "Hollow curve lower right" in said
+    assert "Hollow curve lower right" in notices_seen
     gold = next(area for what, area in room.editor.palette.places() if getattr(what, "name", "") == "gold")
     room.mouse(gold[0] + 5, gold[1] + 5, click=False)
-    assert "Gold (Shift+G)" in said
-    said.clear()
+    assert "Gold (Shift+G)" in notices_seen
+    notices_seen.clear()
     room.mouse(*room.at(300, 300), click=False)
-    assert "Hollow curve lower right" in said
+    assert "Hollow curve lower right" in notices_seen
 
 
 def test_a_click_on_the_lower_edge_of_help_does_not_leave_the_editor(room: Maker) -> None:
@@ -760,11 +760,11 @@ def test_the_panel_names_the_type_that_is_in_hand_or_selected(room: Maker) -> No
     room.drag((300, 300))
     room.press("v")
     room.drag((500, 400))
-    said = []
+    labels = []
     for at in ((310, 310), (500, 400)):
         room.drag(at)
-        said.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
-    assert said == ["Selected: laser drone", "In hand: laser drone"], "a click in the corner of its cell takes it"
+        labels.append(room.editor.properties.widgets[0].text)  # type: ignore[attr-defined]
+    assert labels == ["Selected: laser drone", "In hand: laser drone"], "a click in the corner of its cell takes it"
 
 
 def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(room: Maker) -> None:
@@ -939,9 +939,9 @@ def test_undo_and_redo_say_what_changed_until_the_next_change(room: Maker) -> No
     view = room.editor.view
     room.editor.session.tools.history.change(replace(room.draft, author="somebody", comment="Dark"))
     room.drag((300, 300))
-    for key, said in (("z", "Undone: 1 cell"), ("z", "Undone: author, comment"), ("y", "Redone: author, comment")):
+    for key, hint in (("z", "Undone: 1 cell"), ("z", "Undone: author, comment"), ("y", "Redone: author, comment")):
         room.chord(key, pygame.KMOD_LCTRL)
-        assert view.hint == said
+        assert view.hint == hint
     room.editor.session.tools.history.change(room.draft.with_objects(room.draft.objects[::-1]))
     room.chord("z", pygame.KMOD_LCTRL)
     assert view.hint == "Undone: order of objects"
@@ -1333,7 +1333,7 @@ def test_grey_buttons_that_align_say_why(room: Maker) -> None:
 
 
 @pytest.mark.parametrize("other", ["Box", "key", "test", "undo", "escape"])
-def test_a_door_without_its_switch_is_put_away_and_that_is_told(room: Maker, other: str) -> None:
+def test_a_door_without_its_switch_is_put_away_and_that_is_reported(room: Maker, other: str) -> None:
     before, view = room.draft, room.editor.view
     room.press("shift+k")
     room.drag((300, 300))
@@ -1345,8 +1345,8 @@ def test_a_door_without_its_switch_is_put_away_and_that_is_told(room: Maker, oth
     else:
         room.press({"key": "9", "test": "f5", "escape": "escape"}[other])
     assert room.draft == before
-    told = {"escape": "", "undo": "Undone: placed 1 locked door"}
-    assert view.hint == told.get(other, "The locked door is put away: it had no switch yet")
+    notices = {"escape": "", "undo": "Undone: placed 1 locked door"}
+    assert view.hint == notices.get(other, "The locked door is put away: it had no switch yet")
     if other == "test":
         room.press("escape")
     room.press("shift+k")

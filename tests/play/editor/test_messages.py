@@ -25,7 +25,7 @@ from ninja_game.play.editor import messages as messages_module
 from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _PICTURE, _WHEN, MessagesScreen
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.editor.sheet import said_places
+from ninja_game.play.editor.sheet import message_places
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.menu_screen import Menu
@@ -59,13 +59,13 @@ ALL = (
 def opened(maker: Maker, says: str | None = None) -> MessagesScreen:
     """The page of messages, in a level that says something first."""
     if says is not None:
-        said(maker, says)
+        check_says(maker, says)
     maker.chord("m", pygame.KMOD_LSHIFT)
     maker.frames(2)
     return maker.shown(MessagesScreen)
 
 
-def said(maker: Maker, says: str) -> None:
+def check_says(maker: Maker, says: str) -> None:
     maker.editor.session.tools.history.change(replace(maker.draft, says=says))
     maker.frames()
 
@@ -279,7 +279,7 @@ def test_all_messages_fit_into_the_page_and_one_is_removed(room: Maker) -> None:
 
 
 @pytest.mark.parametrize(
-    "message, in_detail, said",
+    "message, in_detail, wanted",
     [
         (MessageRow("start", "", " "), False, "Type what is said"),
         (MessageRow("start", "", "{fly} flies"), False, "{fly} is not one of {left}"),
@@ -288,13 +288,13 @@ def test_all_messages_fit_into_the_page_and_one_is_removed(room: Maker) -> None:
     ],
 )
 def test_what_is_wrong_keeps_the_focus_and_is_said(
-    room: Maker, message: MessageRow, in_detail: bool, said: str
+    room: Maker, message: MessageRow, in_detail: bool, wanted: str
 ) -> None:
     screen = opened(room)
     show(screen, MessageRow("start", "", "fine"), message)
     room.choose("OK")
     assert room.top() is screen
-    words = said if message.unknown == "" else "There is no {fly}"
+    words = wanted if message.unknown == "" else "There is no {fly}"
     assert words in drawn(room.app)
     assert not room.app.notice, "nothing lies over the buttons"
     field = screen.focus
@@ -317,19 +317,19 @@ def test_a_place_begins_at_the_ninja_or_with_what_is_selected_and_is_shown_by_a_
     room.mouse(*in_picture(0, 4))
     room.choose("OK")
     assert room.draft.says == "at 20,4: here"
-    assert list(said_places(room.draft)) == [(24 * 20 + 12, 24 * 4 + 12)]
+    assert list(message_places(room.draft)) == [(24 * 20 + 12, 24 * 4 + 12)]
     both = replace(room.draft, says=f"{room.draft.says} | start: Go")
-    assert list(said_places(both)) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
+    assert list(message_places(both)) == [(24 * 20 + 12, 24 * 4 + 12), (76.0, 524.0)], "beside the ninja"
     of_things = replace(
         with_stamp(both, Stamp({}, (ObjectSpec(GOLD, (60.0, 84.0)),))),
         says="gold: a | gold: b | switch: c | after 9 s: d",
     )
     switch = next(spec.values[2:] for spec in both.objects if spec.kind == EXIT)
-    assert list(said_places(of_things)) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], (
+    assert list(message_places(of_things)) == [(76.0, 66.0), (switch[0] + 16, switch[1] - 18)], (
         "and beside gold and switch"
     )
     room.frames()
-    assert ("said", (492.0, 108.0)) in room.editor.view.sheet.marks
+    assert ("message", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
     tools.choose(frozenset({(len(room.draft.objects) - 1, 0)}))
     assert opened(room)._here == (2, 2)
@@ -378,7 +378,7 @@ def test_a_frame_is_drawn_moved_and_sized_by_the_mouse_its_other_edges_stay(room
 
 
 def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> None:
-    said(room, "at 12,12 8x3: One")
+    check_says(room, "at 12,12 8x3: One")
     room.editor.session.tools.tool = "select"
     room.mouse(*room.at(12 * 24 + 12, 12 * 24 + 12), click=False)
     room.frames(2)
@@ -481,7 +481,7 @@ def test_for_a_level_without_a_file_no_packs_are_read(room: Maker) -> None:
 
 
 def test_a_level_about_which_something_is_said_keeps_its_messages(room: Maker) -> None:
-    said(room, ALL)
+    check_says(room, ALL)
     room.press("f2")
     room.fill("Other", "OK")
     assert (room.draft.name, room.draft.says) == ("Other", ALL)
@@ -528,7 +528,7 @@ def test_escape_and_cancel_ask_about_changed_messages(room: Maker, button: bool)
 
 
 def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -> None:
-    said(room, ALL)
+    check_says(room, ALL)
     before = room.draft
     room.mouse(*room.at(24 * 12 + 12, 24 * 5 + 12), click=False)
     assert "Select drags it: Jump: here'" in drawn(room.app)
@@ -542,7 +542,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
 def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker) -> None:
     room.editor.session.tools.history.change(replace(room.draft, says="at 9,9: Here | switch: On | start: Go"))
     room.frames()
-    (bubble,) = (at for at, number in said_places(room.draft).items() if number == 2)
+    (bubble,) = (at for at, number in message_places(room.draft).items() if number == 2)
     before = room.draft
     room.mouse(*room.at(*bubble), click=False)
     assert "Double click opens the message: Go'" in drawn(room.app)
@@ -554,23 +554,24 @@ def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker)
 
 
 def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
-    told = MessageQueue(parse_messages("start: Go"))
-    assert told.is_start
-    assert not told.on_tick(SimpleNamespace(events=[SimpleNamespace(kind=EXIT_OPENED, x=60.0, y=60.0)], event_count=1))  # type: ignore[arg-type]
-    assert (told.text, told.is_start) == ("Go", True), "it may lie where it did"
-    told.at_start()
-    assert told.text == ""
+    queued = MessageQueue(parse_messages("start: Go"))
+    assert queued.is_start
+    opening = SimpleNamespace(kind=EXIT_OPENED, x=60.0, y=60.0)
+    assert not queued.on_tick(SimpleNamespace(events=[opening], event_count=1))  # type: ignore[arg-type]
+    assert (queued.text, queued.is_start) == ("Go", True), "it may lie where it did"
+    queued.at_start()
+    assert queued.text == ""
 
 
 def test_a_locked_door_and_a_trap_have_their_words() -> None:
-    told = MessageQueue(parse_messages("lock: The door is open | trap: Shut"))
+    queued = MessageQueue(parse_messages("lock: The door is open | trap: Shut"))
     world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED, x=60.0, y=60.0)], event_count=1)
-    assert told.on_tick(world)  # type: ignore[arg-type]
-    assert told.text == "The door is open"
+    assert queued.on_tick(world)  # type: ignore[arg-type]
+    assert queued.text == "The door is open"
     world.events[0].kind = TRAP_CLOSED
     for _ in range(read_ticks("The door is open")):
-        told.on_tick(world)  # type: ignore[arg-type]
-    assert told.text == "Shut"
+        queued.on_tick(world)  # type: ignore[arg-type]
+    assert queued.text == "Shut"
 
 
 def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Maker, boxes: list[Box]) -> None:
@@ -683,7 +684,7 @@ def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -
     assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
     doors.choose("OK")
     assert doors.draft.says == screen.source
-    assert list(said_places(doors.draft)) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
+    assert list(message_places(doors.draft)) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
     run = Simulation(doors.draft.level)
     queue, heard_at = MessageQueue(parse_messages("lock 11,22: One | gold 18,22: Two")), dict[str, int]()
     for tick, keys in enumerate(RIGHT):
@@ -780,7 +781,7 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
 def test_a_message_that_waits_for_another_is_a_problem_with_its_place(doors: Maker) -> None:
     session = doors.editor.session
     session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
-    said(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
+    check_says(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
     late = [finding for finding in session.examine() if finding.code == "late-message"]
     assert [(finding.text, finding.cells) for finding in late] == [
         ("the message 'One' is replaced after 0.8 s in the known run, too soon", ((4, 22),)),
@@ -794,7 +795,7 @@ WELCOME = "Welcome to this place: go to the right, and look at what I have built
 
 @pytest.mark.parametrize("waits", [1, 4])
 def test_a_place_waits_until_the_welcome_was_read_also_while_the_level_waits(room: Maker, waits: int) -> None:
-    said(room, f"start: {WELCOME} | at 3,22: Wall ahead")
+    check_says(room, f"start: {WELCOME} | at 3,22: Wall ahead")
     assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
     room.press("f5")
     play = room.shown(TryScreen).play
@@ -818,7 +819,7 @@ def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_at_o
         (f"start: {WELCOME} | gold: Well", f"'{WELCOME}' is replaced after 0.6 s in the known run, too soon"),
         (f"start: {WELCOME} | start: Two | trap: Late", ""),
     ):
-        said(doors, says)
+        check_says(doors, says)
         texts = [finding.text for finding in session.examine() if finding.code == "late-message"]
         assert texts == [f"the message {late}"] * bool(late)
         opened(doors)

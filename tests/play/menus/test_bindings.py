@@ -44,7 +44,7 @@ def test_pads_that_are_there_at_the_start_are_opened(monkeypatch: pytest.MonkeyP
     assert opened == [0, 1]
 
 
-def test_keys_that_there_are_not_leave_the_defaults_and_are_named(tmp_path: Path) -> None:
+def test_keys_that_do_not_exist_leave_the_defaults_and_are_named(tmp_path: Path) -> None:
     (tmp_path / "settings.toml").write_text('[keys]\njump = ["scancode-512", "scancode-999"]\nleft = ["odd", "q"]\n')
     app = build_app(tmp_path, audio_output=AudioOutput())
     assert app.controls.keys["jump"] == ACTIONS["jump"].keys

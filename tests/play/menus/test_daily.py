@@ -121,7 +121,7 @@ def test_without_numba_it_is_said(making: MenuDriver, monkeypatch: pytest.Monkey
     making.frames(2)
 
 
-def test_a_file_that_is_no_level_is_told_and_stays(making: MenuDriver) -> None:
+def test_a_file_that_is_not_a_level_is_reported_and_stays(making: MenuDriver) -> None:
     file = daily.daily_file(making.player.folder / "levels", DAY)
     file.parent.mkdir(parents=True)
     file.write_text("ninja-game level 1\nname: mine\n")

@@ -51,7 +51,7 @@ from tests.support.menu_driver import MenuDriver
 from tests.support.players import deadly_level, entry, short_level
 
 
-def said(level: LevelScreen) -> str:
+def shown_message(level: LevelScreen) -> str:
     """What the level says on the screen now."""
     shown = hud_view(level.play).message
     return shown[0] if shown else ""
@@ -59,13 +59,13 @@ def said(level: LevelScreen) -> str:
 
 def test_first_level_says_its_goal_with_the_keys_of_whoever_plays(driver: MenuDriver) -> None:
     level = driver.open_level()
-    assert said(level).startswith("Left and Right run, ")
-    assert "Touch the switch, then go through the exit" in said(level)
+    assert shown_message(level).startswith("Left and Right run, ")
+    assert "Touch the switch, then go through the exit" in shown_message(level)
     driver.app.controls.pad_used = True
-    assert said(level).startswith("D-pad left and ")
+    assert shown_message(level).startswith("D-pad left and ")
     driver.app.change_settings(level_texts=False)
     level.play.messages = MessageQueue(level.playthrough.messages())
-    assert said(level) == ""
+    assert shown_message(level) == ""
 
 
 def test_what_a_text_names_is_pointed_at_while_it_is_shown_and_until_it_is_done(driver: MenuDriver) -> None:
@@ -226,7 +226,7 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
 
 def test_what_just_happened_replaces_what_is_shown_and_a_place_waits_until_that_was_read() -> None:
     long = "Gold adds two seconds to the clock; " * 3
-    told = MessageQueue(parse_messages(f"start: go | gold: {long} | lock: open | at 3,22: Here | trap: shut"))
+    queued = MessageQueue(parse_messages(f"start: go | gold: {long} | lock: open | at 3,22: Here | trap: shut"))
     world = Simulation(room_level(["#@..#"], ())).world
     heard = []
     for tick in range(2 * START_TICKS):
@@ -234,32 +234,32 @@ def test_what_just_happened_replaces_what_is_shown_and_a_place_waits_until_that_
         world.events[0].kind = {0: GOLD_TAKEN, 40: TRAP_CLOSED}.get(tick, LOCK_OPENED)
         world.ninja.x = 84.0 if 60 < tick < 300 else 400.0
         world.ninja.y = 540.0
-        heard += [(tick, told.text)] if told.on_tick(world) else []
+        heard += [(tick, queued.text)] if queued.on_tick(world) else []
     assert read_ticks(long.strip()) == 8 * TICKS_PER_SECOND
     assert heard[:3] == [(0, long.strip()), (40, "shut"), (50, "open")], "the newest, at once"
     assert heard[3:] == [(50 + read_ticks("open"), "Here"), (300 + _FADE_TICKS, "")], "as long as the ninja is there"
 
 
 def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> None:
-    told, world = MessageQueue(parse_messages("gold: one | gold: two")), Simulation(short_level()).world
+    queued, world = MessageQueue(parse_messages("gold: one | gold: two")), Simulation(short_level()).world
     world.event_count, world.events[0].kind = 1, GOLD_TAKEN
-    told.on_tick(world)
-    assert told.text == "one"
-    told.on_death()
-    told.at_start()
-    assert told.text == ""
-    assert told.on_tick(world)
-    assert told.text == "two"
+    queued.on_tick(world)
+    assert queued.text == "one"
+    queued.on_death()
+    queued.at_start()
+    assert queued.text == ""
+    assert queued.on_tick(world)
+    assert queued.text == "two"
 
 
 def test_a_place_that_was_replaced_before_it_was_read_comes_again() -> None:
-    told = MessageQueue(parse_messages("at 3,22: One | at 3,22: Two | gold: Gold | trap: Shut"))
+    queued = MessageQueue(parse_messages("at 3,22: One | at 3,22: Two | gold: Gold | trap: Shut"))
     world = Simulation(room_level(["#@..#"], ())).world
     world.ninja.x, world.ninja.y = 84.0, 540.0
     seen, need = [], read_ticks("Gold")
     for tick in range(5 * SHOWN_TICKS):
         world.event_count, world.events[0].kind = int(tick in (0, 150)), TRAP_CLOSED if tick else GOLD_TAKEN
-        seen += [(tick, told.text)] if told.on_tick(world) else []
+        seen += [(tick, queued.text)] if queued.on_tick(world) else []
     again = 150 + need
     assert seen == [(0, "Gold"), (need, "One"), (150, "Shut"), (again, "One"), (again + SHOWN_TICKS, "Two")]
 
@@ -295,9 +295,9 @@ def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver:
     play.messages.text, play.messages.message, play.things = here.text, here, ()
     x, y, w, h = hud.box(hud_view(play).message or PlacedMessage("", (), (), None, covers=False)).area
     for play.message_spot in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
-        said = hud_view(play).message
-        assert said
-        assert away_from(play.message_spot, *hud.box(said).area) > 10
+        placed = hud_view(play).message
+        assert placed
+        assert away_from(play.message_spot, *hud.box(placed).area) > 10
 
 
 def test_text_at_a_place_is_said_there_once() -> None:
@@ -322,15 +322,15 @@ def test_text_at_a_place_is_said_there_once() -> None:
     ],
 )  # fmt: skip
 def test_text_at_a_place_fades_when_the_ninja_has_left_and_it_was_read(source: str, stays: int, ticks: int) -> None:
-    told = MessageQueue(parse_messages(f"at 3,22{source}: Here"))
+    queued = MessageQueue(parse_messages(f"at 3,22{source}: Here"))
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
     ninja.x, ninja.y = 84.0, 540.0
-    assert told.on_tick(world)
+    assert queued.on_tick(world)
     solid: list[float] = []
-    while told.text:
+    while queued.text:
         ninja.x = 84.0 + 61 * (len(solid) >= stays)
-        solid.append(told.opacity)
-        told.on_tick(world)
+        solid.append(queued.opacity)
+        queued.on_tick(world)
     assert len(solid) == pytest.approx(ticks, abs=2)
     assert solid[:-_FADE_TICKS] == [1.0] * (len(solid) - _FADE_TICKS)
     assert solid[-_FADE_TICKS:] == sorted(solid[-_FADE_TICKS:], reverse=True)
@@ -347,9 +347,9 @@ def test_a_place_has_a_frame_of_its_size_and_a_wall_hides_it() -> None:
         ("at 6,2", middle + 30, above, True), ("at 6,3", middle - 70, floor, False),
         ("at 6,3 7x1", middle - 70, floor, True),
     ):  # fmt: skip
-        told = MessageQueue(parse_messages(f"{source}: Here"), room.tiles)
+        queued = MessageQueue(parse_messages(f"{source}: Here"), room.tiles)
         ninja.x, ninja.y = x, y
-        assert told.on_tick(room.world) is seen, (source, x, y)
+        assert queued.on_tick(room.world) is seen, (source, x, y)
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
@@ -371,7 +371,7 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
 
 def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(driver: MenuDriver) -> None:
     level = driver.open_level()
-    for keys, told in (([0] * (START_TICKS + QUIET_TICKS), True), ([2, 2, 1, 1] * 400, False)):
+    for keys, hinted in (([0] * (START_TICKS + QUIET_TICKS), True), ([2, 2, 1, 1] * 400, False)):
         heard = []
         for helps in (True, False):
             level.retry()
@@ -380,8 +380,8 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
             driver.keys.script = [2] * 50 + list(keys)
             for _ in range(50 + len(keys)):
                 driver.frames(1)
-                heard.append(said(level))
-        assert ("Stuck? R starts the level over" in heard[: 50 + len(keys)]) == told
+                heard.append(shown_message(level))
+        assert ("Stuck? R starts the level over" in heard[: 50 + len(keys)]) == hinted
         assert "Stuck? R starts the level over" not in heard[50 + len(keys) :]
         assert heard[START_TICKS] != heard[0], "the text of the start is gone"
         assert "Stuck? R starts the level over" not in heard[: START_TICKS + QUIET_TICKS - 8], "not soon after a text"
@@ -664,32 +664,32 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         assert 24 <= x < x + w <= 768
         assert 24 <= y < y + h <= 576
         surface.fill("black")
-        said = PlacedMessage(text, tiles, things, *view.message[3:])
-        covered = hud.draw(surface, replace(view, message=said, named=(), ninja=place))
+        placed = PlacedMessage(text, tiles, things, *view.message[3:])
+        covered = hud.draw(surface, replace(view, message=placed, named=(), ninja=place))
         there = driver.app.canvas.point(*place)
         assert surface.get_at(there)[:3] == driver.app.theme.palette.accent[:3]
         assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"
 
 
-def hud_place(told: MessageQueue) -> tuple[float, float] | None:
-    return told.place
+def hud_place(queued: MessageQueue) -> tuple[float, float] | None:
+    return queued.place
 
 
 def test_a_text_knows_its_place_until_another_comes() -> None:
-    told = MessageQueue(parse_messages("start: Go | at 3,22: Here"))
-    assert hud_place(told) is None
+    queued = MessageQueue(parse_messages("start: Go | at 3,22: Here"))
+    assert hud_place(queued) is None
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
-    heard = [(tick, told.text) for tick in range(1, 200) if told.on_tick(simulation.world)]
+    heard = [(tick, queued.text) for tick in range(1, 200) if queued.on_tick(simulation.world)]
     assert heard == [(read_ticks("Go"), "Here")], "what is said at the start is read first"
-    assert hud_place(told) == (84.0, 540.0)
-    told.at_start()
-    assert hud_place(told) is None
-    assert told.on_tick(simulation.world) is False, "once shown, a place says nothing more"
-    told.say_again()
-    assert told.text == "Go"
-    assert told.on_tick(simulation.world)
-    assert told.text == "Here", "it was read in an earlier try"
+    assert hud_place(queued) == (84.0, 540.0)
+    queued.at_start()
+    assert hud_place(queued) is None
+    assert queued.on_tick(simulation.world) is False, "once shown, a place says nothing more"
+    queued.say_again()
+    assert queued.text == "Go"
+    assert queued.on_tick(simulation.world)
+    assert queued.text == "Here", "it was read in an earlier try"
 
 
 WELL = room_level(["#...#"] * 10 + ["#@..#"], ())

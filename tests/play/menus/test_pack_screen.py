@@ -309,9 +309,9 @@ def test_ones_own_level_with_its_certificate_is_certified(driver: MenuDriver, pa
     gap = path / "00-1-mind-the-gap.txt"
     gap.write_text(gap.read_text("utf-8").replace("@", ".", 1), "utf-8")
     driver.open("Levels")
-    for index, said in enumerate(("Certified: 3.900 s", "Not passed yet")):
+    for index, wanted_text in enumerate(("Certified: 3.900 s", "Not passed yet")):
         driver.shown(Browser).list.index = index
-        assert said in re.findall("text '(.*?)' at 436,408", drawn(driver.app))
+        assert wanted_text in re.findall("text '(.*?)' at 436,408", drawn(driver.app))
     assert drawn(driver.app).count("text 'certified' at") == 7, "of the eight rows"
     (path / "received").touch()
     for _ in ("received", "of days"):
@@ -460,7 +460,7 @@ def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
     assert driver.top() is screen
 
 
-def test_problems_are_looked_for_beside_the_window(
+def test_problems_are_looked_for_in_the_background(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     go_on = Event()
@@ -904,7 +904,7 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDr
 def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
-    levels, go_on, told = driver.player.folder / "levels", Event(), list[str]()
+    levels, go_on, reports = driver.player.folder / "levels", Event(), list[str]()
     request.addfinalizer(go_on.set)
     walk = ROOM
     for name, draft in (("Gap", walk.with_tiles({(30, 1): 1})), ("Walk", walk)):
@@ -937,14 +937,14 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     (levels / "Gap.txt").unlink()
     notify = driver.app.notify
 
-    def tell(text: str, **_: object) -> None:
-        told.append(text)
+    def note(text: str, **_: object) -> None:
+        reports.append(text)
         notify(text)
 
-    monkeypatch.setattr(driver.app, "notify", tell)
+    monkeypatch.setattr(driver.app, "notify", note)
     go_on.set()
-    driver.wait(lambda: len(told) == 2)
-    assert sorted(told) == [
+    driver.wait(lambda: len(reports) == 2)
+    assert sorted(reports) == [
         "Gap: no certificate, as no file has the level any more. Open it, and press F7",
         "Walk: certified, 0.975 s, kept with the level",
     ]
@@ -1005,8 +1005,8 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(driver: MenuDriver, pat
     assert "All goes to the folder deleted; Undo brings it back" in drawn(driver.app)
     driver.choose("Delete it")
     assert Packer(driver.app).steps == screen.packer.steps, "so it is when the program runs again"
-    said = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
-    for what in [*said, "Move Mind the Gap"]:
+    commands = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
+    for what in [*commands, "Move Mind the Gap"]:
         assert driver.button("Undo").hint == f"Ctrl+Z: {what}"
         driver.chord("z", pygame.KMOD_LCTRL)
         assert driver.app.notice == f"Undone: {what}"
@@ -1133,8 +1133,8 @@ def test_what_is_received_is_shown_on_a_card_before_the_desk(driver: MenuDriver,
     card = driver.shown(PackCard)
     assert card.focus is driver.button("Play")
     text = drawn(driver.app)
-    for said in ("Laundry", "by the ninja-game developers, 1.2", "8 levels in 2 episodes", "Dry by noon"):
-        assert f"text '{said}' at" in text
+    for wanted_text in ("Laundry", "by the ninja-game developers, 1.2", "8 levels in 2 episodes", "Dry by noon"):
+        assert f"text '{wanted_text}' at" in text
     with patch.object(card._thumbnails, "draw") as draw:
         drawn(driver.app)
     assert draw.call_count == 4, "its picture"
@@ -1262,7 +1262,7 @@ def linked(*names: str) -> str:
 
 
 @pytest.mark.parametrize(
-    "text, said",
+    "text, wanted_text",
     [
         ("", "no text in the clipboard"),
         ("a poem", "no link of a pack"),
@@ -1274,12 +1274,12 @@ def linked(*names: str) -> str:
         (write_link("pack", ['{"a.txt": "x"}']), "pack.toml"),
     ],
 )
-def test_what_is_no_link_of_a_pack_changes_nothing(
-    driver: MenuDriver, path: Path, text: str, said: str, screen: PackScreen
+def test_what_is_not_a_link_of_a_pack_changes_nothing(
+    driver: MenuDriver, path: Path, text: str, wanted_text: str, screen: PackScreen
 ) -> None:
     before = sorted(path.parent.rglob("*"))
     pasted(driver, text)
-    assert said in driver.app.notice
+    assert wanted_text in driver.app.notice
     assert sorted(path.parent.rglob("*")) == before
 
 
@@ -1319,8 +1319,8 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     grid = driver.shown(EpisodeGrid)
     text = drawn(driver.app)
     assert "text 'Laundry' at 44,58 size 20 bold" in text
-    for said in ("by the ninja-game developers", "Dry by noon"):
-        assert f"text '{said}' at" in text
+    for wanted_text in ("by the ninja-game developers", "Dry by noon"):
+        assert f"text '{wanted_text}' at" in text
     assert "text 'seen in practice'" not in text
     assert "text 'Preview as player'" in text
     assert "0 of 8 levels passed" in text
@@ -1639,7 +1639,7 @@ def test_a_zip_is_chosen_from_the_folder_of_downloads_and_kept(
     assert driver.app.notice == f"test pack: kept among your packs, in {short_path(screen.path)}"
 
 
-def test_a_file_that_is_no_pack_is_refused_where_it_was_chosen(
+def test_a_file_that_is_not_a_pack_is_refused_where_it_was_chosen(
     driver: MenuDriver, screen: PackScreen, tmp_path: Path
 ) -> None:
     (bad := tmp_path / "bad.zip").write_bytes(b"no zip")

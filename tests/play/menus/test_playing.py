@@ -69,7 +69,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert all(verify_recording(run).good and str(run.replay.made) == "played" for run in runs)
 
 
-def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> None:
+def test_runs_that_are_begun_again_count_with_their_gold(driver: MenuDriver) -> None:
     driver.open("Levels")
     level = driver.open_level()
     recording = load_replays(bundled_replays()[0])[0]

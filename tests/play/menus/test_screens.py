@@ -293,10 +293,10 @@ def test_a_dropped_file_gets_no_name_that_is_odd_and_follows_no_link(driver: Men
     levels, outside = driver.player.folder / "levels", tmp_path / "outside.txt"
     (levels / "link.txt").symlink_to(outside)
     (tmp_path / "dropped").mkdir()
-    for name, said in (("aux.txt", "Give it another name"), ("\u202ea.txt", "Give it"), ("LINK.txt", "already")):
+    for name, refusal in (("aux.txt", "Give it another name"), ("\u202ea.txt", "Give it"), ("LINK.txt", "already")):
         (tmp_path / "dropped" / name).write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
         driver.drop_file(tmp_path / "dropped" / name)
-        assert said in browser.message
+        assert refusal in browser.message
     assert [path.name for path in levels.iterdir()] == ["link.txt"]
     assert not outside.exists()
 

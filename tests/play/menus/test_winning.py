@@ -139,14 +139,14 @@ def test_an_episode_passed_is_a_feast_unless_motion_is_reduced(driver: MenuDrive
 
 
 def test_a_text_in_the_border_leaves_room_for_the_name_of_the_level(driver: MenuDriver) -> None:
-    said = PlacedMessage(
+    placed = PlacedMessage(
         "Some words that say a lot about a level in which there is no rock at all",
         (0,) * 713,
         tuple((24.0 * column, 24.0 * row, MUST) for column in range(33) for row in range(25)),
         (396.0, 300.0),
         covers=False,
     )
-    view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", message=said)
+    view = HudView(3600, "", ("Episode 1.1, level 1: Long Name", "gold 0 / 5"), name="Long Name", message=placed)
     log = DrawLog()
     with log.installed(), log.recording(driver.app.theme.palette) as lines:
         Hud(driver.app.theme).draw(pygame.Surface((792, 600)), view)

@@ -131,7 +131,7 @@ def test_comparing_opens_the_lead_over_the_branch(at: TasDriver, tab: BranchesTa
     assert at.editor.against == tab.branches.all[0].track
 
 
-def test_differences_are_told_between_runs_to_the_exit(at: TasDriver, tab: BranchesTab) -> None:
+def test_differences_are_reported_between_runs_to_the_exit(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
     assert tab._difference(tab.branches.all[0]) == ("the same", 0)
     at.editor.edit(lambda track: track.named(5, "hop"))

@@ -17,8 +17,7 @@ from ninja_game.tas.files import RunFile, open_run
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 from tests.support.tas_driver import TasDriver
 
-FARTHER = WALK.replace("160,564", "220,564")
-"""The same level, its exit farther away."""
+FARTHER = WALK.replace("160,564", "220,564")  # the same level, its exit farther away
 
 
 @pytest.fixture

@@ -209,7 +209,7 @@ def test_a_run_of_the_game_is_saved_among_the_players_replays(tmp_path: Path) ->
     at.close()
 
 
-def test_what_was_not_saved_of_another_run_is_told_and_opens_from_the_menu(at: TasDriver, tmp_path: Path) -> None:
+def test_what_was_not_saved_of_another_run_is_reported_and_opens_from_the_menu(at: TasDriver, tmp_path: Path) -> None:
     change(at)
     wanted = at.editor.track
     at.app.stack.clear()

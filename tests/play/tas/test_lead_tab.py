@@ -108,7 +108,7 @@ def test_a_run_that_cannot_be_compared_says_so(at: TasDriver, tab: LeadTab, monk
     assert tab.table is None
 
 
-def test_seconds_without_a_row_are_told(at: TasDriver, tab: LeadTab) -> None:
+def test_seconds_without_a_row_are_reported(at: TasDriver, tab: LeadTab) -> None:
     at.editor.edit(lambda track: track.replaced(0, len(track), bytes(200)))
     compared(at, tab)
     assert tab.table

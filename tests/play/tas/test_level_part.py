@@ -561,7 +561,7 @@ def test_the_switch_of_an_exit_is_pointed_at_too(at: TasDriver) -> None:
     assert object_at(run, exit_.x, exit_.y) == exit_
 
 
-def test_other_runs_in_the_folder_of_a_run_that_was_saved_anew_are_listed(at: TasDriver, tmp_path: Path) -> None:
+def test_other_runs_in_the_folder_of_a_run_that_was_saved_again_are_listed(at: TasDriver, tmp_path: Path) -> None:
     folder = tmp_path / "elsewhere"
     folder.mkdir()
     for name in ("other.replay.txt", "saved.replay.txt"):

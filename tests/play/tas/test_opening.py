@@ -67,7 +67,7 @@ def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriv
     assert gc.get_threshold() == garbage
 
 
-def test_what_cannot_be_opened_is_told_where_one_came_from(
+def test_what_cannot_be_opened_is_reported_where_one_came_from(
     at: MenuDriver, loaded: Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object) -> None:
@@ -98,6 +98,6 @@ def test_what_was_prepared_is_there_at_once(at: MenuDriver) -> None:
 
 def test_while_another_process_compiles_the_tas_editor_opens_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(opening, "compiled_available", lambda: True)
-    monkeypatch.setattr(opening, "is_compiled", lambda _: False)
+    monkeypatch.setattr(opening, "has_compiled_twin", lambda _: False)
     monkeypatch.setattr(opening, "prefers_plain", lambda: True)
     assert is_prepared()

@@ -191,7 +191,7 @@ def test_a_whole_replay_is_pasted(at: TasDriver, clipboard: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    "text, told",
+    "text, problem",
     [
         ("R*3\nRJ*2 Q*4", "clipboard:2:6: not an input run"),
         ("", "no text"),
@@ -199,11 +199,11 @@ def test_a_whole_replay_is_pasted(at: TasDriver, clipboard: list[str]) -> None:
         ("(R", "block"),
     ],
 )
-def test_broken_text_is_refused_in_words(at: TasDriver, clipboard: list[str], text: str, told: str) -> None:
+def test_broken_text_is_refused_in_words(at: TasDriver, clipboard: list[str], text: str, problem: str) -> None:
     clipboard[0] = text
     before = at.editor.track
     at.chord("v", CTRL)
-    assert told in at.app.notice
+    assert problem in at.app.notice
     assert at.editor.track == before
 
 

@@ -118,7 +118,7 @@ def test_the_scroll_bar_leads_anywhere(at: TasDriver) -> None:
     assert at.screen.roll.top == 0
 
 
-def test_what_is_under_the_mouse_is_told_in_full(at: TasDriver) -> None:
+def test_what_is_under_the_mouse_is_named_in_full(at: TasDriver) -> None:
     at.mouse(*at.cell(20, "x"), click=False)
     x = float(at.session.timeline.column("x")[20])
     assert f"x {x!r}" in at.editor.hint

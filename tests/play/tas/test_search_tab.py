@@ -189,7 +189,7 @@ def test_a_better_end_is_found_and_put_in_as_one_edit(at: TasDriver, tab: Search
     assert at.editor.track == before
 
 
-def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: TasDriver, tab: SearchTab) -> None:
+def test_other_ticks_make_the_goal_of_the_menu_again_and_end_old_results(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Be there sooner")
     goal = tab.goal.text
     results_of(tab).stop()
@@ -559,7 +559,7 @@ def test_the_first_search_prepares_that_of_the_whole_run(
     assert results_of(tab).search.seconds > 0
 
 
-def test_what_is_wrong_is_told(at: TasDriver, tab: SearchTab) -> None:
+def test_what_is_wrong_is_reported(at: TasDriver, tab: SearchTab) -> None:
     at.press("return")
     assert at.app.notice.startswith("Say what for")
     at.write("x > colour")
@@ -579,7 +579,7 @@ def test_what_is_wrong_is_told(at: TasDriver, tab: SearchTab) -> None:
     assert "the run ends" in at.app.notice
 
 
-def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: SearchTab) -> None:
+def test_what_is_not_a_better_than_the_run_is_not_listed(at: TasDriver, tab: SearchTab) -> None:
     at.write("tick >= 109")
     at.press("return")
     at.wait(lambda: bool(results_of(tab).search.results), "results")

@@ -54,7 +54,9 @@ def test_a_formula_is_asked_for_and_its_value_shown(at: TasDriver, tab: ValuesTa
     assert shown_value(watched, 10**6) == "-"
 
 
-def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at: TasDriver, tab: ValuesTab) -> None:
+def test_what_is_wrong_with_a_formula_is_reported_with_its_column_and_asked_again(
+    at: TasDriver, tab: ValuesTab
+) -> None:
     at.press("v")
     at.write("vx + colour")
     at.press("return")
@@ -101,7 +103,7 @@ def test_a_click_in_the_plot_puts_the_cursor_there_and_a_drag_moves(at: TasDrive
     assert window.is_whole
 
 
-def test_what_is_under_the_mouse_is_told(at: TasDriver, tab: ValuesTab) -> None:
+def test_what_is_under_the_mouse_is_named(at: TasDriver, tab: ValuesTab) -> None:
     at.mouse(tab.window.x(60), 450, click=False)
     assert at.editor.hint.startswith(f"tick 60  speed: {shown_value(tab.watched[0], 60)}")
     at.mouse(*at.button("Objects").centre, click=False)

@@ -43,7 +43,7 @@ def limb(surface: Surface, color: Any, points: Sequence[Any], radii: Sequence[fl
 
 
 def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0, smooth: int = 0) -> Rect:
-    """``smooth``: 1 for a smooth one, whose middle and edge lie half a px further."""
+    """Draw a disc or a ring. ``smooth``: 1 for a smooth one, whose middle and edge lie half a px further."""
     x, y, r = int(center[0]), int(center[1]), int(radius)
     if r < 1:
         return make(x, y, 0, 0)

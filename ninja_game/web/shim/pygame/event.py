@@ -20,7 +20,7 @@ class Event:
 
 
 class Devices:
-    """``keys``: by scancode, whether they are down. ``modifiers``: of the keyboard. ``mouse``: its place, px."""
+    """State of keyboard and mouse. ``keys``: by scancode, whether they are down. ``mouse``: its place, px."""
 
     keys: tuple[bool, ...] = (False,) * 512
     modifiers = 0

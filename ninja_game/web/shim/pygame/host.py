@@ -10,7 +10,7 @@ class error(RuntimeError):
 
 
 class Link:
-    """``page``: host.js, set at the start of the game."""
+    """The way to the page. ``page``: host.js, set at the start of the game."""
 
     page: Any = None
 

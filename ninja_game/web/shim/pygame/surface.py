@@ -30,7 +30,7 @@ SCREEN = 1  # the number of the canvas that the player sees
 
 
 class DisplayList:
-    """``numbers``: to be painted next. ``target``: the number of the canvas for the next entry."""
+    """What the page is to paint. ``numbers``: its entries. ``target``: the number of the canvas for the next one."""
 
     def __init__(self) -> None:
         self.numbers = array("d")
