@@ -43,7 +43,7 @@ def listed(words: Sequence[str]) -> str:
 
 @dataclass(eq=False)
 class MessageRow:
-    """``when``: as of a LevelMessage. As typed: ``detail``, of DETAILS, and ``time``, the seconds that it is shown."""
+    """A message in the list. ``when``: as of a LevelMessage. As typed: ``detail``, of DETAILS; ``time``, seconds."""
 
     when: str = "start"
     detail: str = ""
@@ -129,5 +129,5 @@ def _with_edge_at(frame: CellArea, edges: tuple[int, int], cell: Cell) -> CellAr
     return area_between((first[0], first[1]), (last[0], last[1]))
 
 
-def moved(frame: CellArea, begin: Cell, cell: Cell) -> CellArea:
+def moved_frame(frame: CellArea, begin: Cell, cell: Cell) -> CellArea:
     return frame[0] + cell[0] - begin[0], frame[1] + cell[1] - begin[1], *frame[2:]

@@ -34,10 +34,10 @@ class Ask(NamedTuple):
 
 
 class Reach(NamedTuple):
-    """``spans``: reachable places of the ninja's centre; ``deaths``: its deaths there. ``arcs``: some of the jumps.
+    """What the ninja can reach from a place. ``spans``: of its centre; ``deaths``: its deaths there.
 
-    ``latest``: the last places to jump from before the floor ends under a runner. ``dangers``: the routes of drones,
-    guards, thwumps and rockets while the ninja presses nothing.
+    ``arcs``: some of the jumps. ``latest``: the last places to jump from before the floor ends under a runner.
+    ``dangers``: the routes of drones, guards, thwumps and rockets while the ninja presses nothing.
     """
 
     ask: Ask

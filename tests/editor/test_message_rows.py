@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.editor.message_rows import DETAIL, GRIP, TEXT, TIME, MessageRow, messages_of, moved, sizing
+from ninja_game.editor.message_rows import DETAIL, GRIP, TEXT, TIME, MessageRow, messages_of, moved_frame, sizing
 from ninja_game.formats.messages import LevelMessage
 from ninja_game.sim.rules import CELL
 
@@ -53,4 +53,4 @@ def test_a_drag_sizes_a_frame_by_its_edge_or_corner_and_moves_it_by_its_middle()
         assert sized
         assert sized(cell) == becomes
     assert sizing(message, x, y) is sizing(message, corner[0] - GRIP - 1, y) is None
-    assert moved(message.frame, (12, 5), (13, 3)) == (left + 1, top - 2, columns, rows)
+    assert moved_frame(message.frame, (12, 5), (13, 3)) == (left + 1, top - 2, columns, rows)

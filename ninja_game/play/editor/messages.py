@@ -12,7 +12,17 @@ from math import dist
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import DETAILS, GRIP, TEXT, TIME, MessageRow, listed, messages_of, moved, sizing
+from ninja_game.editor.message_rows import (
+    DETAILS,
+    GRIP,
+    TEXT,
+    TIME,
+    MessageRow,
+    listed,
+    messages_of,
+    moved_frame,
+    sizing,
+)
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
@@ -290,7 +300,7 @@ class MessagesScreen(MenuScreen):
         elif away < near and number != self.number:
             self.select(number)
         elif parsed and all(abs(a - b) < half for a, b, half in zip(at, parsed.middle, parsed.reach, strict=True)):
-            self._dragged_frame = partial(moved, parsed.frame, cell)
+            self._dragged_frame = partial(moved_frame, parsed.frame, cell)
         elif selected and selected.when == "at":
             if is_inside(cell_of(*at)):
                 self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else FRAME_SIZE).frame)
