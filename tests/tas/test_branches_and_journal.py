@@ -18,7 +18,7 @@ from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import open_run, save_run
 from ninja_game.tas.journal import JOURNAL_FOLDER, BesideRun, Journal, lost_runs, read_journal
-from ninja_game.tas.session import OPENED, TasSession
+from ninja_game.tas.session import OPENED, TICKS_PER_FRAME_PLAIN, TasSession
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branches_of_json
 from tests.support.samples import WALK_END, replay_of_walk
 from tests.support.strategies import tracks
@@ -104,6 +104,10 @@ def session_of_a_file(tmp_path: Path) -> TasSession:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     return TasSession(open_run(path), tmp_path, memory="plain")
+
+
+def test_one_picture_waits_for_few_ticks_of_the_plain_memory(session: TasSession) -> None:
+    assert session.ticks_per_frame == TICKS_PER_FRAME_PLAIN
 
 
 def journal_of(folder: Path) -> Path:

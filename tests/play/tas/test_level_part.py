@@ -26,6 +26,7 @@ from ninja_game.runs.compare import SPEED_AHEAD
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.goals import PRESETS
+from ninja_game.tas.session import TasSession
 from ninja_game.tas.timeline import Timeline, difference_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen, RunFiles
@@ -101,6 +102,14 @@ def test_it_stops_at_the_last_tick_and_begins_again(at: TasDriver) -> None:
     at.press("space")
     at.frames(5)
     assert editor.cursor < 10
+
+
+def test_playback_waits_for_ticks_that_are_not_simulated(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(TasSession, "ticks_per_frame", 0)
+    at.session.timeline.simulated_until = 6
+    at.press("space")
+    at.frames(20)
+    assert (at.editor.cursor, at.screen.level.playing.on) == (5, True)
 
 
 @pytest.mark.parametrize("tick", [0, 90, 200])
