@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import io
 import struct
-import sys
 import time
 from zipfile import ZIP_LZMA, ZipFile
 
-import numpy as np
 import pytest
 
-from ninja_game.files.untrusted import MAX_PARTS, open_zip, parse_toml, read_array, unpacked
+from ninja_game.files.untrusted import MAX_PARTS, open_zip, parse_toml, unpacked
 
 KEYS = ["a.", '"a" . ', "'a'.", '"\\"" .\t', "a-1."]
 
@@ -70,14 +68,6 @@ def test_only_common_ways_of_packing_are_unpacked() -> None:
     archive = open_zip(out, most_files=10, most_bytes=2**20)
     with pytest.raises(ValueError, match="packed in an unusual way"):
         unpacked(archive, archive.infolist()[0])
-
-
-def test_an_array_may_have_the_last_of_all_characters() -> None:
-    last = chr(sys.maxunicode)
-    np.savez(file := io.BytesIO(), text=np.array([last]))
-    with ZipFile(file) as archive:
-        (entry,) = archive.infolist()
-        assert read_array(archive, entry, np.dtype("U1"), most=1, dimensions=1).tolist() == [last]
 
 
 def test_a_zip_whose_index_is_far_longer_than_its_names_is_refused_before_it_is_read() -> None:

@@ -38,10 +38,7 @@ def composed(plan: str, difficulty: int) -> Scene:
 
 
 def plan_digest(plan: str) -> str:
-    """The digest of what eight seeds paint for a ground plan, and of a whole level before any solver sees it.
-
-    Also of what eight seeds would add along a flight through that level.
-    """
+    """The digest of what eight seeds paint for a ground plan and add along a flight, and of one level."""
     scene = composed(plan, 10)
     digest = sha256(write_ascii_level(scene.level).encode())
     flight = [(60.0 + 6.0 * tick, 300.0 + 2.0 * (tick % 60)) for tick in range(110)]

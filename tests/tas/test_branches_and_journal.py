@@ -106,10 +106,6 @@ def session_of_a_file(tmp_path: Path) -> TasSession:
     return TasSession(open_run(path), tmp_path, memory="plain")
 
 
-def test_one_picture_waits_for_few_ticks_of_the_plain_memory(session: TasSession) -> None:
-    assert session.ticks_per_frame == TICKS_PER_FRAME_PLAIN
-
-
 def journal_of(folder: Path) -> Path:
     (file,) = (folder / JOURNAL_FOLDER).glob("*.jsonl")
     return file
@@ -117,6 +113,7 @@ def journal_of(folder: Path) -> Path:
 
 def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: TasSession, tmp_path: Path) -> None:
     rng = Random(3)
+    assert session.ticks_per_frame == TICKS_PER_FRAME_PLAIN
     states = [(session.track, list(session.branches.all))]
     sizes = []
     session.change(session.track.replaced(0, 0, [1]))

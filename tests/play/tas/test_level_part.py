@@ -26,7 +26,6 @@ from ninja_game.runs.compare import SPEED_AHEAD
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT, Demo, with_press_bits
 from ninja_game.tas.files import open_run, runs_of_level
 from ninja_game.tas.goals import PRESETS
-from ninja_game.tas.session import TasSession
 from ninja_game.tas.timeline import Timeline, difference_text
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.level.other_runs import OtherRunScreen, RunFiles
@@ -104,8 +103,8 @@ def test_it_stops_at_the_last_tick_and_begins_again(at: TasDriver) -> None:
     assert editor.cursor < 10
 
 
-def test_playback_waits_for_ticks_that_are_not_simulated(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(TasSession, "ticks_per_frame", 0)
+def test_playback_waits_for_simulation(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(type(at.session), "ticks_per_frame", 0)
     at.session.timeline.simulated_until = 6
     at.press("space")
     at.frames(20)
@@ -299,14 +298,13 @@ def test_a_splice_says_whether_both_runs_are_in_the_same_state(at: TasDriver) ->
     before, after = at.session.timeline.world(taken - 1), at.session.timeline.world(taken)
     text = difference_text(before, after)
     gap = np.hypot(after.ninja.x - before.ninja.x, after.ninja.y - before.ninja.y)
-    (vx, vy), (vx2, vy2) = ((n.x - n.prev_x, n.y - n.prev_y) for n in (before.ninja, after.ninja))
-    speeds = f"{np.hypot(vx2 - vx, vy2 - vy):.2f} px/tick other"
+    steps = [np.array((n.x - n.prev_x, n.y - n.prev_y)) for n in (before.ninja, after.ninja)]
+    speeds = f"{np.hypot(*(steps[1] - steps[0])):.2f} px/tick other"
     assert text.startswith(f"not in the same state: {gap:.2f} px away, {speeds}")
     assert re.search(r"; other: .*gold \d+", text)
     for slot in range(1, 6):
         before.objects[slot].x += 1.0
-    named = difference_text(before, after).partition("; other: ")[2]
-    assert re.fullmatch(r"([^,]+, ){2}[^,]+ and [2-9] more", named)
+    assert re.search(r"other: ([^,]+, ){2}[^,]+ and [2-9] more$", difference_text(before, after))
 
 
 def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) -> None:
