@@ -120,7 +120,6 @@ def save_picture(surface: pygame.Surface, path: Path) -> None:
 
 def prepare_sdl() -> None:
     """Set the variables that SDL reads when it starts."""
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     # The window class, by which desktops find its icon and group windows.
     os.environ["SDL_VIDEO_X11_WMCLASS"] = TITLE  # pygame has put the name of the script there
     os.environ.setdefault("SDL_VIDEO_WAYLAND_WMCLASS", TITLE)

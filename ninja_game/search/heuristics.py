@@ -17,7 +17,7 @@ from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.rules import CELL, EXIT_RADIUS, RADIUS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, STRIDE
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED
@@ -54,8 +54,7 @@ def free_points(levels: Any, costs: Costs) -> None:
     for point in range(POINTS):
         x = _SPACING * (point % ACROSS)
         y = _SPACING * (point // ACROSS)
-        inside = CELL < x < WORLD_WIDTH - CELL and CELL < y < WORLD_HEIGHT - CELL
-        free = inside and not solid_at(level, x, y)
+        free = not solid_at(level, x, y)
         if free:
             for k in range(12):
                 if solid_at(level, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):

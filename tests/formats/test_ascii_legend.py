@@ -104,9 +104,10 @@ def test_the_printed_legend_is_comments_and_names_every_character() -> None:
     words = text.split()
     assert [char for char in TILE_CHARS if char not in words] == []
     assert [symbol.char for symbol in SYMBOLS if f"{symbol.char} {symbol.name}" not in text] == []
+    needing = text.partition("Objects that also need a line")[2]
+    assert all((f"{symbol.char} {symbol.name}" in needing) is (symbol.values is None) for symbol in SYMBOLS)
 
 
 def test_the_columns_of_the_legend_stand_apart() -> None:
     for line in legend_text().splitlines():
         assert line.count("5 launch pad, other normal") == line.count("5 launch pad, other normal  ")
-        assert len(line) <= 120

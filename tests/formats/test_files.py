@@ -145,7 +145,7 @@ def test_recordings_without_level_need_one(tmp_path: Path) -> None:
 def test_replays_of_ours(tmp_path: Path) -> None:
     replay = Replay(bytes([2, 2, 14]), 7, "running", level=LEVEL, level_digest=level_digest(LEVEL), name="walk")
     (recording,) = load_replays(saved(tmp_path, write_replay(replay)))
-    assert (recording.name, recording.level, recording.replay) == ("walk", LEVEL, replay)
+    assert (recording.name, recording.level, recording.replay, recording.record) == ("walk", LEVEL, replay, 0)
     # Unlike in a demo nothing is repeated after the last input.
     assert (recording.ticks, recording.replay.playback(8)) == (8, bytes([2, 2, 14, 0, 0, 0, 0, 0]))
 

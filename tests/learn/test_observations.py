@@ -108,6 +108,8 @@ def test_the_nearest_gold_is_the_nearest_that_is_left() -> None:
         nearest = min(left, key=lambda each: abs(each - x))
         shown: Any = worlds.observations
         assert shown[0, column] == np.float32(nearest - x)
+    between = parse_level(FLOOR + "|5^100,566!0^160,566!0^70,566!0^130,566")
+    assert seen(between, StateVector(normalised=False))[column] == -30.0, "the first of two as near"
 
 
 def test_local_tiles_are_the_cells_round_the_ninja() -> None:

@@ -12,6 +12,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.theme import PALETTES
 from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays
+from ninja_game.view.sprites.drawing import _turned
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 TILES = "0" * 713
@@ -49,6 +50,10 @@ def test_it_is_drawn(name: str) -> None:
         view.on_tick()
         view.draw(surface, 0.5)
     thumbnail(level, PALETTES["safe"], 100)
+
+
+def test_the_extent_of_a_turned_drawing_is_that_of_its_farthest_corner() -> None:
+    assert _turned((-3.0, -4.0, 1.0, 2.0)) == (-5.0, -5.0, 5.0, 5.0)
 
 
 def test_a_level_without_ninja_has_a_thumbnail() -> None:

@@ -7,9 +7,9 @@ from random import Random
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import BOUNCE_BLOCK
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.states import BULLET, EXPLOSIVE
+from ninja_game.sim.states import BULLET, CELEBRATING, EXPLOSIVE
 from ninja_game.simulation import Simulation
-from ninja_game.view.ninja.figure import SKID, STAND
+from ninja_game.view.ninja.figure import DANCES, SKID, STAND
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.view.ninja.ragdoll import STICKS, Ragdoll, VerletParticle, _square
 
@@ -29,6 +29,13 @@ def drop(run: Simulation, ticks: int, *, kind: int = BULLET, seed: int = 3, push
     for _ in range(ticks):
         doll.step(run.tiles, run.world)
     return doll
+
+
+def test_every_dance_is_danced() -> None:
+    animation = NinjaAnimation(cave().world, Random(1))
+    animation.state = CELEBRATING
+    for animation.dance, dance in enumerate(DANCES):
+        assert animation.local_pose(0.0) == dance.at(animation.since)[0]
 
 
 def test_it_comes_to_rest_on_the_floor() -> None:

@@ -108,6 +108,8 @@ def test_skid_and_slide_follow_the_speed() -> None:
     assert levels[0] == 1.0
     assert levels == sorted(levels, reverse=True)
     assert levels[-1] < levels[0]
+    down_a_slope = Mock(state=states.SKIDDING, x=0.3, y=0.3, prev_x=0.0, prev_y=0.0, floor_x=0.6, floor_y=-0.8)
+    assert loop_levels(Mock(ninja=down_a_slope), ())["skid"] == pytest.approx(0.42)
 
 
 def test_hearing_plays_the_tick_and_leaves_the_world_alone(folder: Path) -> None:

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pygame
 import pytest
@@ -74,6 +75,15 @@ def test_a_machine_without_a_sound_card_is_silent_on_the_terminal_too(tmp_path: 
         env=environment, cwd=ROOT, capture_output=True, text=True, check=True, timeout=60,
     )  # fmt: skip
     assert not done.stderr
+
+
+@pytest.mark.parametrize("managed", [True, False])
+def test_a_window_manager_is_asked_for_full_screen(managed: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    window, shown = Window((800, 600), Settings()), Mock(size=(800, 600), position=(5, 6))
+    monkeypatch.setattr(window, "_managed", managed)
+    monkeypatch.setattr(pygame, "Window", Mock(from_display_module=lambda: shown))
+    window.set_fullscreen(wanted=True)
+    assert (shown.set_fullscreen.called, shown.position != (0, 0)) == (managed, managed)
 
 
 class Probe(Screen):

@@ -451,6 +451,7 @@ def test_a_run_that_is_reported_as_not_run_never_passes_on_a_level_that_counts(t
     assert isinstance(refused, Verdict)
     again = with_demands(replace(refused, problems=()), {refused.level_digest: "walk"}, only_these=True, strict=True)
     assert "outcome is not run, --strict expects exit" in map(str, again.problems)
+    assert all(problem.hint for problem in again.problems)
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

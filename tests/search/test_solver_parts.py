@@ -170,6 +170,8 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
         first, shift = mutate(keys, 40, tick, counters)
         assert keys.max() <= 7
         assert abs(shift) <= 3
+        assert shift <= 0 or keys[tick : 40 - shift].tolist() == before[tick + shift :].tolist()
+        assert shift >= 0 or keys[tick - shift :].tolist() == before[tick : 40 + shift].tolist()
         first = max(first, 0)
         assert keys[: min(first, tick)].tolist() == before[: min(first, tick)].tolist()
 

@@ -11,6 +11,7 @@ from ninja_game.formats.ascii.writer import headers_of, write_ascii_level
 from ninja_game.generator.compose import compose
 from ninja_game.generator.generate import Effort, generate
 from ninja_game.generator.layouts import LAYOUTS
+from ninja_game.generator.obstacles import hazards_beside
 from ninja_game.generator.scene import RockBoard, Scene
 
 TABLE = Path(__file__).parent.parent / "golden" / "generated.tsv"
@@ -36,9 +37,12 @@ def composed(plan: str, difficulty: int) -> Scene:
 
 
 def plan_digest(plan: str) -> str:
-    """The digest of what eight seeds paint for a ground plan, and of a whole level before any solver sees it."""
-    digest = sha256(write_ascii_level(composed(plan, 10).level).encode())
+    """The digest of what eight seeds paint for a ground plan and add along a flight, and of one level."""
+    scene = composed(plan, 10)
+    digest = sha256(write_ascii_level(scene.level).encode())
+    flight = [(60.0 + 6.0 * tick, 300.0 + 2.0 * (tick % 60)) for tick in range(110)]
     for seed in range(8):
+        digest.update(repr(hazards_beside(scene, flight, 5, Random(seed))).encode())
         board = RockBoard()
         LAYOUTS[plan](board, Random(seed))
         digest.update(f"{board.ink.tobytes()!r} {board.vault_floor} {board.gate} {board.danger_places}".encode())

@@ -18,7 +18,7 @@ from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.contributions import Contributions
 from ninja_game.tas.files import open_run, save_run
 from ninja_game.tas.journal import JOURNAL_FOLDER, BesideRun, Journal, lost_runs, read_journal
-from ninja_game.tas.session import OPENED, TasSession
+from ninja_game.tas.session import OPENED, TICKS_PER_FRAME_PLAIN, TasSession
 from ninja_game.tas.tracks import Branch, Branches, InputTrack, branches_of_json
 from tests.support.samples import WALK_END, replay_of_walk
 from tests.support.strategies import tracks
@@ -118,6 +118,7 @@ def journal_of(folder: Path) -> Path:
 
 def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: TasSession, tmp_path: Path) -> None:
     rng = Random(3)
+    assert session.ticks_per_frame == TICKS_PER_FRAME_PLAIN
     states = [(session.track, list(session.branches.all))]
     sizes = []
     session.change(session.track.replaced(0, 0, [1]))

@@ -862,11 +862,6 @@ def test_the_page_of_a_run_shows_its_speed_keys_and_splits(runs: Path, levels: P
     assert "Fastest at 0.700 s: 3.06 px per tick; " in bea
     drawn = bea.partition("<h2>Speed and keys")[2].partition("</svg>")[0]
     assert 'aria-label="Speed and keys from 0.000 s to 0.725 s, at most 3.1 px per tick"' in drawn
-    assert drawn.count('class="keys"') == 3
-    [(start, length)] = re.findall('d="M([0-9.]+) 176h([0-9.]+)" class="keys"', drawn)
-    wide = (628 - 72) / 29
-    assert (float(start), float(length)) == pytest.approx((72 + 5 * wide, 24 * wide), abs=0.1), "from the sixth tick"
-    assert re.findall('d="([^"]*)" class="keys"', drawn)[::2] == ["", ""]
 
 
 def test_the_page_of_a_run_that_presses_in_every_tick_for_minutes_is_no_larger(levels: Path) -> None:

@@ -319,3 +319,10 @@ def test_other_rules_of_the_world_are_other_runs(
     monkeypatch.setattr(judge, "program", lambda: "another")
     board(runs, levels)
     assert simulated == ["ann.txt", "ann.txt"]
+
+
+def test_a_course_that_goes_takes_its_features_with_it() -> None:
+    common = copies.Common()
+    for has in (True, False):
+        common.mark([1.5], 8, has=has)
+        assert common.counts([1.5], 9).tolist() == [0] * 8 + [has]

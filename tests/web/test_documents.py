@@ -9,9 +9,10 @@ from posixpath import normpath
 from urllib.parse import unquote
 
 import pytest
+from markdown_it import MarkdownIt
 
 from ninja_game.play.lab.screen import FIGURES
-from ninja_game.web.pages.documents import LAB, Documents, markdown_files, page_of
+from ninja_game.web.pages.documents import LAB, Documents, _add_anchors, markdown_files, page_of
 from ninja_game.web.pages.frame import GAME_PAGE
 from tests.test_docs import anchors
 
@@ -125,3 +126,8 @@ def test_search_finds_parts_of_pages_by_their_words(files: dict[str, bytes]) -> 
     words = re.search(r'<li data-words="([^"]*)"[^>]*><a href="docs/rules/world.html#3-edge-states"', text)
     assert words
     assert "interesting" in words[1]
+
+
+def test_the_contents_of_a_page_are_its_headings_of_the_second_rank() -> None:
+    tokens = MarkdownIt().parse("# A page\n\n## One\n\n### Deeper\n\n## One\n")
+    assert [*_add_anchors(tokens)] == [("one", "One"), ("one-1", "One")]

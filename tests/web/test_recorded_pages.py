@@ -1,4 +1,4 @@
-"""Pages of the gallery and of a board, tag by tag, against `golden/pages.txt`.
+"""Pages of the gallery and of a board, tag by tag, and charts of a board, against `golden/pages.txt`.
 
 `python3 tools/dev.py accept-pictures` writes the file again.
 """
@@ -9,9 +9,12 @@ import re
 import shutil
 from pathlib import Path
 
+import numpy as np
+
 from ninja_game.board.judge import judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.levels.published import published_levels
+from ninja_game.web.board.charts import lead_chart, speed_and_keys, step_chart
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.pages.gallery import write_gallery
 from tests.support.own_pack import PACK
@@ -45,8 +48,17 @@ def lines_of(folder: Path) -> list[str]:
     return lines
 
 
+def charts() -> list[str]:
+    """One of each sort, a line each."""
+    days = "2026-01-02", "2026-03-04"
+    steps = step_chart([(0, 9.0), (3, 7.5), (4, 2.0)], ["Ann", "Bob", "Ann"], "{:.1f} s".format, days, "Records")
+    speeds = speed_and_keys(np.linspace(0.0, 4.0, 500), bytes(range(8)) * 70, [30, 33, 450])
+    return [*map(str, (steps, *speeds, lead_chart([0, 100, 200, 400], [(1, [0, 5, None, -3])], "Behind Ann")))]
+
+
 def test_every_page_is_as_recorded(tmp_path: Path) -> None:
     shown = published_levels(PACK)
     write_gallery(tmp_path / "site", shown)
     BoardPages(tmp_path / "site", Ranking(judge(board(tmp_path), shown, jobs=1), shown)).write()
-    hold_against(GOLDEN, [line for name in ("gallery", "board") for line in lines_of(tmp_path / "site" / name)])
+    pages = [line for name in ("gallery", "board") for line in lines_of(tmp_path / "site" / name)]
+    hold_against(GOLDEN, [*pages, "=== charts", *charts()])

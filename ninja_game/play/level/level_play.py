@@ -54,7 +54,7 @@ def followed(shown: float, true: float) -> float:
     """The lifetime to show in the next picture: it approaches the true one, so that gold fills the bar smoothly."""
     if abs(true - shown) < 1:
         return true
-    share = max(_FILL_SHARE, (1 - max(0.0, shown) / LIFETIME) ** 2)
+    share = max(_FILL_SHARE, (1 - shown / LIFETIME) ** 2)
     return shown + (true - shown) * min(1.0, share)
 
 

@@ -75,7 +75,7 @@ class Playback:
             most -= 1
         return most
 
-    def find_end(self, most: int = MAX_TICKS + 1) -> int | None:
+    def find_end(self, most: int) -> int | None:
         """The tick of the exit contact or death, or the last one of the inputs: plays to it from the present moment.
 
         None if it is not reached within ``most`` ticks.

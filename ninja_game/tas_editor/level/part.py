@@ -36,7 +36,7 @@ LINE = 13.0  # height of a text below the level, logical px
 Px = tuple[int, int]
 
 
-def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int | None:
+def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *, dragged: bool) -> int | None:
     """The tick, among those with a visible path, after which the ninja was nearest to a place, px of the level.
 
     None if it was never near, unless the mouse is ``dragged``.

@@ -180,14 +180,13 @@ class AudioPlayer(AudioOutput):
 def _quiet_libraries() -> Iterator[None]:
     """Silence stderr: without a sound card, the system's sound library writes many lines there."""
     kept = os.dup(2)
-    silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, 2)
+    with Path(os.devnull).open("wb") as silence:
+        os.dup2(silence.fileno(), 2)
     try:
         yield
     finally:
         os.dup2(kept, 2)
         os.close(kept)
-        os.close(silence)
 
 
 def _open_mixer() -> bool:

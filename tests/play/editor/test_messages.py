@@ -797,6 +797,7 @@ WELCOME = "Welcome to this place: go to the right, and look at what I have built
 def test_a_place_waits_until_the_welcome_was_read_also_while_the_level_waits(room: Maker, waits: int) -> None:
     check_says(room, f"start: {WELCOME} | at 3,22: Wall ahead")
     assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
+    assert [read_ticks("x" * long) for long in (20, 21)] == [3 * TICKS_PER_SECOND, 4 * TICKS_PER_SECOND]
     room.press("f5")
     play = room.shown(TryScreen).play
     room.frames(waits * 40, ms=25)

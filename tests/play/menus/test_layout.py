@@ -100,6 +100,14 @@ def test_keys_step_a_number_or_move_the_focus_on(key: str, value: float, goal: f
     assert (slider.nudge(key), put) == (goal is not None, [] if goal is None else [goal])
 
 
+def test_a_screen_is_drawn_again_when_another_widget_has_the_focus(driver: MenuDriver) -> None:
+    browser = driver.opened("Levels", Browser)
+    driver.frames(2)
+    assert not browser.redraw
+    browser.focus_on(browser.practice)
+    assert browser.redraw
+
+
 def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
     records = driver.opened("Records", RecordsScreen)
     assert records.list.hint == "Not yet passed in one go"

@@ -103,6 +103,14 @@ def test_it_stops_at_the_last_tick_and_begins_again(at: TasDriver) -> None:
     assert editor.cursor < 10
 
 
+def test_playback_waits_for_simulation(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(type(at.session), "ticks_per_frame", 0)
+    at.session.timeline.simulated_until = 6
+    at.press("space")
+    at.frames(20)
+    assert (at.editor.cursor, at.screen.level.playing.on) == (5, True)
+
+
 @pytest.mark.parametrize("tick", [0, 90, 200])
 def test_a_click_goes_to_the_nearest_tick(at: TasDriver, tick: int) -> None:
     screen = at.screen
@@ -124,7 +132,7 @@ def test_far_from_the_run_and_behind_its_end_no_tick_is_offered(at: TasDriver) -
     timeline = at.session.timeline
     end, positions = timeline.end[0], timeline.positions
     x, y = positions[-1]
-    tick = nearest_tick(positions[: end + 1], float(x), float(y), end)
+    tick = nearest_tick(positions[: end + 1], float(x), float(y), end, dragged=False)
     assert tick is None or tick <= end
     left, top, *_ = at.screen.level.area
     factor = at.screen.level.picture.canvas.scale / at.app.canvas.scale
@@ -290,8 +298,13 @@ def test_a_splice_says_whether_both_runs_are_in_the_same_state(at: TasDriver) ->
     before, after = at.session.timeline.world(taken - 1), at.session.timeline.world(taken)
     text = difference_text(before, after)
     gap = np.hypot(after.ninja.x - before.ninja.x, after.ninja.y - before.ninja.y)
-    assert text.startswith(f"not in the same state: {gap:.2f} px away")
+    steps = [np.array((n.x - n.prev_x, n.y - n.prev_y)) for n in (before.ninja, after.ninja)]
+    speeds = f"{np.hypot(*(steps[1] - steps[0])):.2f} px/tick other"
+    assert text.startswith(f"not in the same state: {gap:.2f} px away, {speeds}")
     assert re.search(r"; other: .*gold \d+", text)
+    for slot in range(1, 6):
+        before.objects[slot].x += 1.0
+    assert re.search(r"other: ([^,]+, ){2}[^,]+ and [2-9] more$", difference_text(before, after))
 
 
 def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) -> None:

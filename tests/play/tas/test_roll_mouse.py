@@ -114,6 +114,8 @@ def test_the_scroll_bar_leads_anywhere(at: TasDriver) -> None:
     at.drag((x, 300), (x, y))
     assert at.screen.roll.top == at.editor.last_tick + 1 - at.screen.roll.layout.rows
     assert at.editor.cursor == 0
+    at.frames()
+    assert at.app.surface.get_at((bar.centerx, bar.top)) == at.screen.theme.palette.accent
     at.drag((x, 300), (x, 40))
     assert at.screen.roll.top == 0
 

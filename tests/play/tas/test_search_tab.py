@@ -378,7 +378,7 @@ def test_a_result_that_does_not_fit_any_more_brings_its_run_back(at: TasDriver, 
     assert is_in(at, results, tab.better[0]), "what is behind the span does not matter"
 
 
-def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: TasDriver, tab: SearchTab) -> None:
+def test_earlier_results_stay_until_forgotten(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
     best, before = tab.better[0], at.editor.track
@@ -390,7 +390,10 @@ def test_results_of_earlier_searches_stay_listed_until_they_are_forgotten(at: Ta
     tab.goal.show("x > 400")
     tab.start()
     results_of(tab).stop()
-    ended(at, tab)
+    places = noted_texts(monkeypatch)
+    note = ended(at, tab).note
+    at.frames(2)
+    assert at.app.canvas.logical(places[note].topleft)[1] > tab.area[1] + 80
     first = len(tab.better)
     row(at, tab, first, click=False)
     at.frames()
