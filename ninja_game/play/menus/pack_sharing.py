@@ -77,7 +77,7 @@ def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
         packs.accept(desk.path, file, code, why)
 
     may = bool(file) and code not in NEVER_ACCEPTED
-    accept_it = partial(desk.ask_text_for, "Accept this warning: why?", "", accept) if may else None
+    accept_it = partial(desk.ask_text_for, "Accept this warning: why?", "", accept, "Write why") if may else None
     missing = missing_run(pack, finding) if finding.sought and not desk.packer.is_busy else None
     longer = partial(desk.packer.search_longer, desk.path, missing) if missing else None
     return Problem(text, finding.hint, go, accept_it, search=longer)

@@ -412,6 +412,12 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.shown(EditorScreen).session.close()
     driver.app.pop()
     driver.choose("Accept it...")
+    before = (path / "pack.toml").read_bytes()
+    for empty in ("", "  "):
+        driver.type(empty)
+        driver.press("return")
+        assert (driver.app.notice, (path / "pack.toml").read_bytes()) == ("Write why", before)
+        driver.shown(FormPanel)
     typed(driver, "found on the street")
     assert problem_page(driver) is screen
     assert screen.problems[0].text == "00-0-first-steps: no name. Accepted: found on the street"
