@@ -438,6 +438,23 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.shown(PackScreen)
 
 
+def test_problems_begin_with_the_first_open_one_whose_lines_lie_within_its_frame(
+    driver: MenuDriver, path: Path
+) -> None:
+    for file in ("00-0-first-steps.txt", "00-1-mind-the-gap.txt"):
+        level = path / file
+        level.write_text(re.sub("name: .*\n", "", level.read_text("utf-8"), count=1), "utf-8")
+    packs.accept(path, "00-0-first-steps.txt", "no-name", "found on the street, " * 8)
+    opened(driver)
+    driver.choose("Problems")
+    page = problem_page(driver)
+    assert [problem.accepted for problem in page.problems] == [True, False, False]
+    assert (page.list.index, page.selected.text) == (1, "00-1-mind-the-gap: no name")
+    _, y, _, h = page.list.row_area(0)
+    first, second = (float(top) for top in re.findall(r"street.* at 54,(\S+) size 10", drawn(driver.app)))
+    assert (first - y, y + h - second - 13) == (6, 6), "as far from the upper edge as from the lower one"
+
+
 def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
     driver: MenuDriver, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
