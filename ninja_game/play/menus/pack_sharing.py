@@ -167,6 +167,14 @@ class ZipsScreen(FilesScreen):
         super().__init__(desk.app, loaded if loaded.is_dir() else home)
         self._desk = desk
 
+    def look(self) -> None:
+        """The newest zip is chosen at first."""
+        super().look()
+        zips = [path for path in self.paths if path.is_file()]
+        with self.app.noting():
+            if zips and not self.list.index:
+                self.list.select(self.paths.index(max(zips, key=lambda path: path.stat().st_mtime)))
+
     def open_file(self, path: Path) -> None:
         self.app.pop()
         install_received(self._desk, lambda: Pack(path))

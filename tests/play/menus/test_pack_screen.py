@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 from collections.abc import Callable, Sequence
@@ -1649,15 +1650,18 @@ def test_a_zip_is_chosen_from_the_folder_of_downloads_and_kept(
 ) -> None:
     (loaded := tmp_path / "home" / "Downloads" / "new").mkdir(parents=True)
     (loaded / "test.zip").write_bytes(Pack(PACK).files.zipped())
+    (loaded / "old.zip").write_bytes(b"")
+    os.utime(loaded / "old.zip", (0, 0))
+    (loaded / "zz.zip").mkdir()
     (loaded / "notes.txt").write_text("no pack", "utf-8")
     monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
     driver.choose("Open a zip...")
     files = driver.shown(pack_sharing.ZipsScreen)
     assert files.paths == [tmp_path / "home", loaded], "it begins where browsers put what they load"
     driver.press("down", "return")
-    assert [path.name for path in files.paths[1:]] == ["test.zip"]
-    driver.press("down", "return")
-    assert driver.shown(PackCard)
+    assert [path.name for path in files.paths[1:]] == ["zz.zip", "old.zip", "test.zip"]
+    driver.press("return")
+    assert driver.shown(PackCard), "the newest zip was chosen already"
     assert [pack.name for pack in screen.own_packs] == ["test pack"]
     assert driver.app.notice == f"test pack: kept among your packs, in {short_path(screen.path)}"
 
