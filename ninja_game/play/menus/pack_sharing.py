@@ -121,15 +121,17 @@ def copy_the_link(desk: PackDesk) -> None:
 
 
 def prepare_shown(desk: PackDesk) -> None:
-    """Make the shown pack ready; an own pack without author or comment opens its form first."""
+    """Make the shown pack ready; its form comes first without author or comment, or for a new version."""
     pack = desk.pack_now()
     if not (desk.pack and pack):
         return
-    start, index = partial(desk.packer.start, desk.path), pack.index
-    if desk.pack.received or (index.is_signed and (index.comment or PARS in pack.files.names)):
+    start, index, version = partial(desk.packer.start, desk.path), pack.index, desk.packer.next_version(pack)
+    follows = bool(index.version) and version != index.version
+    if desk.pack.received or (index.is_signed and not follows and (index.comment or PARS in pack.files.names)):
         start()
     else:
-        pack_form(desk, pack, 3 if index.is_signed else 1, "Make ready", start)
+        first = 1 if not index.is_signed else 2 if follows else 3
+        pack_form(desk, pack, first, "Make ready", start, version)
 
 
 def ask_for_new_pack(desk: PackDesk) -> None:

@@ -1493,6 +1493,35 @@ def test_a_pack_needs_no_author_but_is_asked_for_one(
     assert begun == [screen.path] * 5
 
 
+def test_the_next_version_is_proposed_once_the_pack_differs_from_its_zip(
+    driver: MenuDriver, path: Path, screen: PackScreen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[Path] = []
+    monkeypatch.setattr(screen.packer, "start", begun.append)
+    packs.describe(path, {"author": "", "comment": "Dry by noon"})
+
+    def make_ready(version: str) -> int:
+        """The number of the field with the focus."""
+        driver.choose("Make ready")
+        form = driver.shown(FormPanel)
+        assert form.texts[2] == version
+        place = [widget is form.focus for widget in form.widgets].index(True)
+        form.texts[1] = "ida"
+        driver.choose("Make ready")
+        assert Pack(path).index.version == version
+        pack = Pack(path)
+        screen.packer.publish(ReadyPack(pack, [], pack.files.zipped(), "", []))
+        return place
+
+    assert make_ready("1") == 1
+    driver.choose("Make ready")
+    assert (driver.top(), begun) == (screen, [path] * 2), "nothing has changed"
+    packs.rename_level(path / "00-0-first-steps.txt", "Steps")
+    assert make_ready("2") == 2
+    driver.choose("Make ready")
+    assert (driver.top(), begun) == (screen, [path] * 4)
+
+
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver, screen: PackScreen) -> None:
     driver.choose("New pack...")
     driver.shown(FormPanel).texts[1] = "ida"
