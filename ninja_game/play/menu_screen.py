@@ -367,8 +367,8 @@ class Panel(MenuScreen):
 class Menu(Panel):
     """A panel of actions; each of them closes the panel first. ``then``: called when the back key closes it.
 
-    ``at``: the row with the focus at first. ``unasked``: it opens by itself, so keys pressed in its
-    first half second, which were meant for the screen before, are ignored.
+    ``at``: the row with the focus at first. ``unasked``: it opens by itself, so keys and mouse
+    are ignored in its first half second: they were meant for the screen before.
     """
 
     def __init__(

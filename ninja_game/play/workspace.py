@@ -428,4 +428,4 @@ class DocumentCommands:
                 recover()
 
         rows: list[MenuRow] = [("Recover", try_to_recover, about), keep, ("Discard...", ask, "")]
-        self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))
+        self.app.push(Menu(self.app, f"Not saved last time: {name}", rows, unasked=True))

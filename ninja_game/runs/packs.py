@@ -14,7 +14,7 @@ from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certificate_name
-from ninja_game.formats.pack.pars import DIGEST_DIGITS, Pars
+from ninja_game.formats.pack.pars import DIFFICULTY_GRADES, DIGEST_DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, pack_finding
 from ninja_game.runs.level_design import design, design_findings
@@ -243,6 +243,11 @@ def _order_findings(pack: Pack) -> Iterator[PackFinding]:
     if first and first.grade not in ("", "easy") and len(known) > 1 and (first.difficulty or 0.0) > max(known):
         file = PurePath(next(iter(pack.episodes.values()))[0].file).name
         yield pack_finding("hardest-first", file, grade=first.grade)
+    ranks = {file: list(DIFFICULTY_GRADES.values()).index(known.grade) for file, known in pars.items() if known.grade}
+    for before, after in pairwise(pack.episodes.values()):
+        high, low = ([ranks[level.file] for level in some if level.file in ranks] for some in (before, after))
+        if high and low and min(high) > max(low):
+            yield pack_finding("easier-episode", PurePath(after[0].file).name)
 
 
 def _pars_findings(pack: Pack) -> Iterator[PackFinding]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -126,6 +127,26 @@ def test_the_order_of_levels_is_looked_at(pack: Path) -> None:
     assert findings(pack) == [], "what is accepted may be gone"
     change(pack / "01-0-springtime.txt", "name: Springtime", "name: night shift")
     assert "01-1-night-shift.txt: the same name as 01-0-springtime.txt" in findings(pack)
+
+
+def test_an_episode_that_is_easier_than_the_one_before_is_named(pack: Path) -> None:
+    table = pack / "pars.toml"
+
+    def measure(episode: str, *difficulties: float) -> None:
+        measured = iter(difficulties)
+        text = re.sub(
+            rf'(?m)^("{episode}-.*difficulty = ).*', lambda m: f"{m[1]}{next(measured)} }}", table.read_text()
+        )
+        table.write_text(text, "utf-8")
+
+    measure("00", 2.0, 2.1, 3.0, 4.5, 5.0)
+    measure("01", 1.0, 1.0, 2.0)
+    assert findings(pack) == [], "a medium level in both"
+    measure("01", 1.0, 0.5, 1.2)
+    remark = "01-0-springtime.txt: each level of its episode is easier than those of the episode before"
+    assert findings(pack) == [remark]
+    accept(pack, "01-0-springtime.txt", "easier-episode", "a rest")
+    assert findings(pack) == []
 
 
 def test_two_levels_of_one_place_are_named(pack: Path) -> None:

@@ -115,7 +115,9 @@ class MenuDriver:
         return found
 
     def choose(self, text: str) -> None:
-        """Click the button with a text."""
+        """Click the button with a text, once a menu that opened by itself listens."""
+        while getattr(self.top(), "_deaf_ms", 0):
+            self.frames()
         self.mouse(*self.button(text).centre)
 
     def choose_in_menu(self, text: str) -> None:

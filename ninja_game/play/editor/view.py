@@ -244,7 +244,7 @@ class EditorView(Pane):
         self._hint = self.session.draft, text
 
     def _tell_given_up(self, spec: ObjectSpec) -> None:
-        self.hint = f"The {object_type_name(spec)} is put away: it had no switch yet"
+        self.app.notify(f"The {object_type_name(spec)} is put away: it had no switch yet")
 
     @property
     def message(self) -> int | None:

@@ -157,9 +157,18 @@ class PackDesk(ThumbnailScreen):
         """Show what can be done with a cell, or with the pack."""
         raise NotImplementedError
 
-    def ask_text_for(self, title: str, text: str, action: Callable[[str], object]) -> None:
+    def ask_text_for(self, title: str, text: str, action: Callable[[str], object], needed: str = "") -> None:
+        """Ask for a text, and change the pack with it. ``needed``: a notice where none is typed; then ask again."""
         step = shown_text(title.partition(":")[0])
-        ask_text(self.app, title, "", text, "OK", lambda typed: self.change_pack(lambda: action(typed), step), 60)
+
+        def take(typed: str) -> None:
+            if needed and not typed.strip():
+                self.app.notify(needed)
+                self.ask_text_for(title, text, action, needed)
+            else:
+                self.change_pack(lambda: action(typed), step)
+
+        ask_text(self.app, title, "", text, "OK", take, 60)
 
     def choose_tray(self, key: str) -> None:
         self.tray_key = key

@@ -54,13 +54,13 @@ def pack_menu(desk: PackDesk) -> None:
 
 
 def pack_form(
-    desk: PackDesk, pack: Pack, first: int = 0, yes: str = "OK", then: Callable[[], object] = nothing
+    desk: PackDesk, pack: Pack, first: int = 0, yes: str = "OK", then: Callable[[], object] = nothing, version: str = ""
 ) -> None:
-    """Ask for the texts of the index; the field number ``first`` has the focus. ``then``: called afterwards."""
+    """Ask for the texts of the index, at first field number ``first``, with a ``version`` proposed; ``then`` go on."""
     index, path = pack.index, pack.files.path
     keys = ("name", "author", "version", "comment")
-    theirs = index.is_signed or (desk.pack and desk.pack.received)
-    signed = index if theirs else replace(index, author=desk.player.settings.name)
+    author = index.author if index.is_signed or (desk.pack and desk.pack.received) else desk.player.settings.name
+    signed = replace(index, author=author, version=version or index.version)
     fields = [(key.capitalize(), getattr(signed, key), 200) for key in keys]
 
     def describe(texts: list[str]) -> None:

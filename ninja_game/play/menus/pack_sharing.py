@@ -77,7 +77,7 @@ def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
         packs.accept(desk.path, file, code, why)
 
     may = bool(file) and code not in NEVER_ACCEPTED
-    accept_it = partial(desk.ask_text_for, "Accept this warning: why?", "", accept) if may else None
+    accept_it = partial(desk.ask_text_for, "Accept this warning: why?", "", accept, "Write why") if may else None
     missing = missing_run(pack, finding) if finding.sought and not desk.packer.is_busy else None
     longer = partial(desk.packer.search_longer, desk.path, missing) if missing else None
     return Problem(text, finding.hint, go, accept_it, search=longer)
@@ -121,15 +121,17 @@ def copy_the_link(desk: PackDesk) -> None:
 
 
 def prepare_shown(desk: PackDesk) -> None:
-    """Make the shown pack ready; an own pack without author or comment opens its form first."""
+    """Make the shown pack ready; its form comes first without author or comment, or for a new version."""
     pack = desk.pack_now()
     if not (desk.pack and pack):
         return
-    start, index = partial(desk.packer.start, desk.path), pack.index
-    if desk.pack.received or (index.is_signed and (index.comment or PARS in pack.files.names)):
+    start, index, version = partial(desk.packer.start, desk.path), pack.index, desk.packer.next_version(pack)
+    follows = bool(index.version) and version != index.version
+    if desk.pack.received or (index.is_signed and not follows and (index.comment or PARS in pack.files.names)):
         start()
     else:
-        pack_form(desk, pack, 3 if index.is_signed else 1, "Make ready", start)
+        first = 1 if not index.is_signed else 2 if follows else 3
+        pack_form(desk, pack, first, "Make ready", start, version)
 
 
 def ask_for_new_pack(desk: PackDesk) -> None:
@@ -166,6 +168,14 @@ class ZipsScreen(FilesScreen):
         home, loaded = Path.home(), Path.home() / "Downloads"
         super().__init__(desk.app, loaded if loaded.is_dir() else home)
         self._desk = desk
+
+    def look(self) -> None:
+        """The newest zip is chosen at first."""
+        super().look()
+        zips = [path for path in self.paths if path.is_file()]
+        with self.app.noting():
+            if zips and not self.list.index:
+                self.list.select(self.paths.index(max(zips, key=lambda path: path.stat().st_mtime)))
 
     def open_file(self, path: Path) -> None:
         self.app.pop()

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from time import monotonic
 
+from ninja_game.editor import packs
 from ninja_game.editor.pack_steps import Steps
 from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of
 from ninja_game.errors import NinjaGameError
@@ -165,6 +166,12 @@ class Packer(Aside):
         with suppress(NinjaGameError, OSError):
             return path if Pack(path).index.title == pack.index.title else None
         return None
+
+    def next_version(self, pack: Pack) -> str:
+        """The version to propose: 1, the pack's own, or the number after it if its zip has something else."""
+        version = pack.index.version
+        zipped = self._earlier(f"{pack.name} {version}", pack) if version.isdecimal() else None
+        return str(int(version) + 1) if zipped and not packs.same_pack(Pack(zipped), pack) else version or "1"
 
     def follow(self, pack: Pack | None) -> None:
         """Update the text about the zip. ``pack``: with its present files, None if it is gone."""

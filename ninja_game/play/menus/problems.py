@@ -14,7 +14,7 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.theme import Area, Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
-_ROW = 33
+_ROW = 38
 _SEARCH = "Search for 5 minutes"
 _MAX_TEXT = 900  # most characters of a problem that are shown; no message of the program has more
 
@@ -45,7 +45,7 @@ class ProblemsScreen(MenuScreen):
         super().__init__(app)
         self._find, self._news, self._waited_ms = find, news, 0
         self.problems: Sequence[Problem] = ()
-        self.list = ListView((44, 66, 704, 10 * _ROW), _ROW, self._draw_row, lambda _: self._go(), opens=True)
+        self.list = ListView((44, 66, 704, 9 * _ROW), _ROW, self._draw_row, lambda _: self._go(), opens=True)
         self.list.selected = lambda _: self._offer()
         self.buttons = {
             "search": Button((316, 530, 136, 28), _SEARCH, self._search, size=10),
@@ -59,6 +59,8 @@ class ProblemsScreen(MenuScreen):
         self._waited_ms, self.list.empty = (
             (1, "Looking for problems") if known is None else (0, "There are no problems")
         )
+        if not self.problems:
+            self.list.index = next((k for k, problem in enumerate(known or ()) if not problem.accepted), 0)
         self.problems = self.problems if known is None else known
         self.list.fill(self.problems)
         self._offer()

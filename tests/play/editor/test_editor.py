@@ -1332,7 +1332,7 @@ def test_grey_buttons_that_align_say_why(room: Maker) -> None:
             assert (why in drawn(room.app)) == (count < enough)
 
 
-@pytest.mark.parametrize("other", ["Box", "key", "test", "undo", "escape"])
+@pytest.mark.parametrize("other", ["Box", "key", "palette", "test", "undo", "escape"])
 def test_a_door_without_its_switch_is_put_away_and_that_is_reported(room: Maker, other: str) -> None:
     before, view = room.draft, room.editor.view
     room.press("shift+k")
@@ -1340,13 +1340,17 @@ def test_a_door_without_its_switch_is_put_away_and_that_is_reported(room: Maker,
     assert room.editor.session.tools.placing_switch
     if other == "Box":
         room.choose(other)
+    elif other == "palette":
+        x, y, w, h = next(at for what, at in room.editor.palette.places() if getattr(what, "name", "") == "gold")
+        room.mouse(x + w / 2, y + h / 2)
     elif other == "undo":
         room.chord("z", pygame.KMOD_LCTRL)
     else:
         room.press({"key": "9", "test": "f5", "escape": "escape"}[other])
     assert room.draft == before
-    notices = {"escape": "", "undo": "Undone: placed 1 locked door"}
-    assert view.hint == notices.get(other, "The locked door is put away: it had no switch yet")
+    assert view.hint == ("Undone: placed 1 locked door" if other == "undo" else "")
+    room.mouse(*room.at(350, 330), click=False)
+    assert room.app.notice == ("" if other == "escape" else "The locked door is put away: it had no switch yet")
     if other == "test":
         room.press("escape")
     room.press("shift+k")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 from collections.abc import Callable, Sequence
@@ -412,6 +413,12 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     driver.shown(EditorScreen).session.close()
     driver.app.pop()
     driver.choose("Accept it...")
+    before = (path / "pack.toml").read_bytes()
+    for empty in ("", "  "):
+        driver.type(empty)
+        driver.press("return")
+        assert (driver.app.notice, (path / "pack.toml").read_bytes()) == ("Write why", before)
+        driver.shown(FormPanel)
     typed(driver, "found on the street")
     assert problem_page(driver) is screen
     assert screen.problems[0].text == "00-0-first-steps: no name. Accepted: found on the street"
@@ -430,6 +437,23 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     assert Pack(path).index.accepted
     driver.mouse(BACK[0] + 10, BACK[1] + 10)
     driver.shown(PackScreen)
+
+
+def test_problems_begin_with_the_first_open_one_whose_lines_lie_within_its_frame(
+    driver: MenuDriver, path: Path
+) -> None:
+    for file in ("00-0-first-steps.txt", "00-1-mind-the-gap.txt"):
+        level = path / file
+        level.write_text(re.sub("name: .*\n", "", level.read_text("utf-8"), count=1), "utf-8")
+    packs.accept(path, "00-0-first-steps.txt", "no-name", "found on the street, " * 8)
+    opened(driver)
+    driver.choose("Problems")
+    page = problem_page(driver)
+    assert [problem.accepted for problem in page.problems] == [True, False, False]
+    assert (page.list.index, page.selected.text) == (1, "00-1-mind-the-gap: no name")
+    _, y, _, h = page.list.row_area(0)
+    first, second = (float(top) for top in re.findall(r"street.* at 54,(\S+) size 10", drawn(driver.app)))
+    assert (first - y, y + h - second - 13) == (6, 6), "as far from the upper edge as from the lower one"
 
 
 def test_the_page_of_a_pack_without_problems_offers_what_comes_next(
@@ -1469,6 +1493,35 @@ def test_a_pack_needs_no_author_but_is_asked_for_one(
     assert begun == [screen.path] * 5
 
 
+def test_the_next_version_is_proposed_once_the_pack_differs_from_its_zip(
+    driver: MenuDriver, path: Path, screen: PackScreen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[Path] = []
+    monkeypatch.setattr(screen.packer, "start", begun.append)
+    packs.describe(path, {"author": "", "comment": "Dry by noon"})
+
+    def make_ready(version: str) -> int:
+        """The number of the field with the focus."""
+        driver.choose("Make ready")
+        form = driver.shown(FormPanel)
+        assert form.texts[2] == version
+        place = [widget is form.focus for widget in form.widgets].index(True)
+        form.texts[1] = "ida"
+        driver.choose("Make ready")
+        assert Pack(path).index.version == version
+        pack = Pack(path)
+        screen.packer.publish(ReadyPack(pack, [], pack.files.zipped(), "", []))
+        return place
+
+    assert make_ready("1") == 1
+    driver.choose("Make ready")
+    assert (driver.top(), begun) == (screen, [path] * 2), "nothing has changed"
+    packs.rename_level(path / "00-0-first-steps.txt", "Steps")
+    assert make_ready("2") == 2
+    driver.choose("Make ready")
+    assert (driver.top(), begun) == (screen, [path] * 4)
+
+
 def test_a_new_pack_asks_for_its_author_once(driver: MenuDriver, screen: PackScreen) -> None:
     driver.choose("New pack...")
     driver.shown(FormPanel).texts[1] = "ida"
@@ -1626,15 +1679,18 @@ def test_a_zip_is_chosen_from_the_folder_of_downloads_and_kept(
 ) -> None:
     (loaded := tmp_path / "home" / "Downloads" / "new").mkdir(parents=True)
     (loaded / "test.zip").write_bytes(Pack(PACK).files.zipped())
+    (loaded / "old.zip").write_bytes(b"")
+    os.utime(loaded / "old.zip", (0, 0))
+    (loaded / "zz.zip").mkdir()
     (loaded / "notes.txt").write_text("no pack", "utf-8")
     monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
     driver.choose("Open a zip...")
     files = driver.shown(pack_sharing.ZipsScreen)
     assert files.paths == [tmp_path / "home", loaded], "it begins where browsers put what they load"
     driver.press("down", "return")
-    assert [path.name for path in files.paths[1:]] == ["test.zip"]
-    driver.press("down", "return")
-    assert driver.shown(PackCard)
+    assert [path.name for path in files.paths[1:]] == ["zz.zip", "old.zip", "test.zip"]
+    driver.press("return")
+    assert driver.shown(PackCard), "the newest zip was chosen already"
     assert [pack.name for pack in screen.own_packs] == ["test pack"]
     assert driver.app.notice == f"test pack: kept among your packs, in {short_path(screen.path)}"
 
