@@ -45,7 +45,7 @@ SHAPES = ("polygon", "box", "framed_box", "disc", "ring", "stroke", "limb")
 VALUES: dict[str, tuple[Any, ...]] = {
     **dict.fromkeys(("active", "awake", "chasing", "flicker", "pressed", "seeker", "spin", "used"), (0, 1)),
     **dict.fromkeys(("mechanism", "mood", "variant"), (0, 1, 2)),
-    **dict.fromkeys(("flame", "look", "weapon"), (0, 1, 2, 3)),
+    **dict.fromkeys(("flame_phase", "look", "weapon"), (0, 1, 2, 3)),
     "colour": ("ninja",), "heat": (0, 5), "role": ("dust", "smoke"), "step": (0, 3, 7),
     "warning": ("rocket", "weapon", "chase", "turret"),
 }  # fmt: skip

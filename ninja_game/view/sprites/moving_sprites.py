@@ -118,9 +118,9 @@ def eye(s: Sketch, p: Palette, mood: int) -> None:
 
 
 @drawing(9)
-def rocket(s: Sketch, p: Palette, step: int) -> None:
+def rocket(s: Sketch, p: Palette, flame_phase: int) -> None:
     """A dart with its tip at the point, flying to the right, and the root of its flame."""
-    length = (3.2, 4.4, 3.7, 5.0)[step % 4]
+    length = (3.2, 4.4, 3.7, 5.0)[flame_phase % 4]
     s.polygon(p.ember, [(-6.2, -1.5), (-6.2 - length, 0), (-6.2, 1.5)])
     s.polygon(p.flame, [(-6.2, -0.9), (-6.2 - length * 0.6, 0), (-6.2, 0.9)])
     s.polygon(
