@@ -10,6 +10,7 @@ from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     FRAME_SIZE,
+    IMPORTANT,
     NO_CELL,
     SEPARATOR,
     WORDS,
@@ -52,6 +53,7 @@ class MessageRow:
     detail: str = ""
     text: str = ""
     time: str = ""
+    important: bool = False
 
     @property
     def moment(self) -> str:
@@ -61,7 +63,7 @@ class MessageRow:
     def source(self) -> str:
         seconds = self.time.strip().replace(",", ".")
         shown_for = f" for {seconds} s" if seconds else ""
-        return f"{self.moment}{shown_for}: {header_form(self.text)}"
+        return f"{self.moment}{shown_for}{IMPORTANT * self.important}: {header_form(self.text)}"
 
     @property
     def problem(self) -> tuple[int, str]:
@@ -101,7 +103,10 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[MessageRow]:
-    return [MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "") for m in parse_messages(says)]
+    return [
+        MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "", m.important)
+        for m in parse_messages(says)
+    ]
 
 
 def _detail(message: LevelMessage) -> str:

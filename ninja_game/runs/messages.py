@@ -72,8 +72,9 @@ class MessageQueue:
 
     A message of the start comes at each start until the exit is open, any other once. What just happened replaces
     what is shown; a place or a time waits until that was read, for its ``read_ticks``, and comes again if it was
-    replaced before. What was read in an earlier try holds nothing back. The text of a place without a time of its own
-    stays while the ninja is in its frame, unless another waits.
+    replaced before. What was read in an earlier try holds nothing back. An important message comes at once; until it
+    was read only another such that just happened replaces it. The text of a place without a time of its own stays while
+    the ninja is in its frame, unless another waits.
     """
 
     def __init__(
@@ -176,11 +177,19 @@ class MessageQueue:
         if any(event.kind == EXIT_OPENED for event in events):
             self.drop_start()
         ahead = [message for message in self._messages if message not in self._shown]
+        held = bool(self.is_unread and self.message and self.message.important)
         new = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
-        if not new and not self.is_unread:
-            new = [message for message in ahead if self._is_at(world, message) or _is_due(world, message)]
-        if new:
-            self._shown.update(new)
+        waits = bool(new) or self.is_unread
+        new += [
+            message
+            for message in ahead
+            if (not held if message.important else not waits)
+            and (self._is_at(world, message) or _is_due(world, message))
+        ]
+        self._shown.update(new)
+        if held and not any(message.important for message in new):
+            self._next += _in_turn(new)
+        elif new:
             self._say_now(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False
@@ -314,8 +323,10 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
+    """Texts of one tick, the important ones first."""
     return [
-        (m.text, round(m.seconds * TICKS_PER_SECOND) or shown_ticks(m.when, len(messages), m.text), m) for m in messages
+        (m.text, round(m.seconds * TICKS_PER_SECOND) or shown_ticks(m.when, len(messages), m.text), m)
+        for m in sorted(messages, key=lambda m: not m.important)
     ]
 
 

@@ -34,6 +34,7 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         (r"start: a\nb\nc\nd", "too many lines in a text in 'says'; found 'start: a"),
         (r"start: \n ", "expected WHEN: text"),
         ("gold 0: a", "unknown moment"),
+        ("gold! for 9 s: a", "unknown moment"),
         ("gold all: a", "expected start, switch, gold, all gold"),
         (" | ".join(["start: a"] * 9), "too many messages in 'says'; found 9; expected at most 8"),
     ],
@@ -50,6 +51,11 @@ def test_a_place_has_a_frame_of_five_cells_or_of_its_own_size() -> None:
     for size in ("0x3", "3x0", "32x1", "1x24", "3", "3x3x3"):
         with pytest.raises(LevelError, match="unknown moment"):
             parse_messages(f"at 12,5 {size}: a")
+
+
+def test_a_mark_behind_the_moment_makes_a_message_important() -> None:
+    read = parse_messages("start: a! | death 3!: b | at 3,4 for 9 s !: c | gold!: d")
+    assert [message.important for message in read] == [False, True, True, True]
 
 
 def test_a_frame_of_an_even_size_lies_on_cells() -> None:

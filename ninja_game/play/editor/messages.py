@@ -18,6 +18,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     ALL_GOLD,
     FRAME_SIZE,
+    IMPORTANT,
     KEYS,
     MAX_LETTERS,
     MAX_MESSAGE_LINES,
@@ -78,6 +79,7 @@ _WHEN = {
 
 _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
+    "An important message (!) comes at once, and others wait until it was read.",
     f"{listed(KEYS)} become the key or button of whoever plays; {listed(NUMBER_WORDS)} the number.",
     f"{listed(TARGETS)} have an arrow while their message is shown.",
     "In a level with messages the game gives no help of its own in play.",
@@ -85,6 +87,8 @@ _HELP = (
 
 _HANDLE = 9.0
 """Side of the handles of the selected frame, px of the level."""
+
+_IMPORTANT_HINT = "The selected message comes at once, and is not replaced before it was read: marked with !"
 
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
@@ -182,7 +186,7 @@ class MessagesScreen(MenuScreen):
         y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
         if len(self.messages) > SHOWN:
             text, others = f"Page {self.first // SHOWN + 1} of 2", (self.first + SHOWN) % MAX_MESSAGES
-            rows.append(Button((342, y, 98, 28), text, partial(self.select, others), hint="The others: the wheel"))
+            rows.append(Button((600, 15, 98, 26), text, partial(self.select, others), hint="The others: the wheel"))
         most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
         up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
         buttons: list[tuple[float, float, str, Action | None, str]] = [
@@ -195,7 +199,10 @@ class MessagesScreen(MenuScreen):
             (558, 98, "OK", self._accept, "Ctrl+Enter"),
             (666, 98, "Cancel", self.close, ""),
         ]
-        return [*rows, *(Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons)]
+        mark = self._mark if some else None
+        self._important = Button((342, y, 98, 28), "Important: no", mark, hint=_IMPORTANT_HINT, size=10.5)
+        fixed = [Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons]
+        return [*rows, *fixed[:5], self._important, *fixed[5:]]
 
     @property
     def first(self) -> int:
@@ -336,6 +343,10 @@ class MessagesScreen(MenuScreen):
             others = [other for other in self.messages if other is not selected]
             self._put_at(self.number + by * far, selected, others)
 
+    def _mark(self) -> None:
+        if self.selected:
+            self.selected.important = not self.selected.important
+
     def _remove(self) -> None:
         del self.messages[self.number]
         self.number = min(self.number, max(0, len(self.messages) - 1))
@@ -402,6 +413,7 @@ class MessagesScreen(MenuScreen):
         super().draw_frame(surface)
         theme = self.theme
         self.number = next((k for k, row in enumerate(self.rows) if self.focus in row), self.number)
+        self._important.text = f"Important: {'yes' if self.selected and self.selected.important else 'no'}"
         self._ask_about_run()
         for number in range(self.first, min(self.first + SHOWN, len(self.messages))):
             self._draw_notes(surface, number)
@@ -416,7 +428,8 @@ class MessagesScreen(MenuScreen):
         """Draw the number of a message, its problem, and the count of its letters around its fields."""
         theme, palette, message = self.theme, self.theme.palette, self.messages[number]
         row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
-        theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
+        for place, mark in enumerate((str(number + 1), IMPORTANT * message.important)):
+            theme.text(surface, mark, 32, row + 36 + 34 * place, size=9, bold=True, align="right")
         colour = palette.faint if length < MAX_LETTERS else palette.bad
         theme.text(surface, f"{length} of {MAX_LETTERS}", 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
         wrong = self._wrong(message)

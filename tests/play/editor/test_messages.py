@@ -826,6 +826,34 @@ def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_at_o
         doors.choose("Cancel")
 
 
+def test_an_important_message_comes_at_once_and_no_trifle_replaces_it(doors: Maker) -> None:
+    """What is shown while the ninja runs to the gold and the place, with and without the mark."""
+    says = f"start: {WELCOME} | gold: Gold | at 5,22: Beware of the guard ahead"
+    seen = []
+    for marks in (0, 1):
+        screen = opened(doors, says)
+        select(doors, 2)
+        if marks:
+            doors.choose("Important: no")
+            assert "text '!'" in drawn(doors.app)
+            assert doors.button("Important: yes") is screen.focus
+            select(doors, 1)
+            assert doors.button("Important: no"), "of the one that is selected now"
+        doors.choose("OK")
+        doors.press("f5")
+        play = doors.shown(TryScreen).play
+        doors.app.controls.poll = lambda: 2  # type: ignore[method-assign]
+        play.begin()
+        came = [play.messages.text]
+        while play.messages.deaths == 0 and len(play.attempt.inputs) < 60:
+            play.run_ticks(1)
+            came += [play.messages.text] * (came[-1] != play.messages.text)
+        seen.append([text[:6] for text in came])
+        doors.press("escape")
+    assert doors.draft.says == says.replace("5,22:", "5,22!:")
+    assert seen == [["Welcom", "Gold"], ["Welcom", "Beware"]]
+
+
 @pytest.mark.parametrize("says, helps", [("", True), ("after 99 s: Go", False)])
 def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, says: str, helps: bool) -> None:
     walls = Stamp({(column, row): 1 for row in range(10, 23) for column in (1, 5)}, ())
@@ -844,9 +872,9 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
 @pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
-    fixed = [widget.area for widget in screen.widgets[-8:]]
+    fixed = [widget.area for widget in screen.widgets[-9:]]
     show(screen, *[MessageRow("at", "8,21", "x")] * count)
-    assert [widget.area for widget in screen.widgets[-8:]] == fixed
+    assert [widget.area for widget in screen.widgets[-9:]] == fixed
     areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *(widget.area for widget in screen.widgets))]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"
