@@ -27,7 +27,7 @@ DETAILS = {
     **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
     "gold": ("any", f"{_ONE}; 3: after so many"),
     "death": ("deaths", "How many deaths: a number from 1 to 99"),
-    "after": ("seconds", "How many seconds: a number from 1 to 99"),
+    "after": ("seconds", "How many seconds: a number from 0.1 to 99.9"),
     "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3"),
 }
 """What some moments may need besides: an example, and a hint."""
@@ -57,7 +57,8 @@ class MessageRow:
 
     @property
     def moment(self) -> str:
-        return f"{self.when} {' '.join(self.detail.split())}{' s' if self.when == 'after' else ''}".strip()
+        detail = " ".join(self.detail.split())
+        return f"{self.when} {detail.replace(',', '.')} s" if self.when == "after" else f"{self.when} {detail}".strip()
 
     @property
     def source(self) -> str:
@@ -111,7 +112,7 @@ def messages_of(says: str) -> list[MessageRow]:
 
 def _detail(message: LevelMessage) -> str:
     if message.cell == NO_CELL:
-        return str(message.number or "")
+        return f"{message.number:g}" if message.number else ""
     return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != FRAME_SIZE else "")
 
 

@@ -26,13 +26,13 @@ NUMBER_WORDS = ("gold left", "gold taken", "deaths")  # numbers that it may name
 WORDS = KEYS + TARGETS + NUMBER_WORDS
 
 _KEY = re.compile(r"\{([^{}]*)\}")
-_COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ([1-9][0-9]?) s")
+_COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ((?:[1-9][0-9]?|0(?=\.[1-9]))(?:\.[0-9])?) s")
 _PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ((?!0+(?:\.0)? )[0-9]{1,2}(?:\.[0-9])?) s")
 ALL_GOLD = "all gold"
 _EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
 _MOMENTS = (
-    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
+    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 2.5 s', 'at 12,5' or 'at 12,5 3x3',"
     " then perhaps 'for 9 s' or 'for 1.5 s', and '!' if it is important"
 )
 
@@ -47,7 +47,7 @@ class LevelMessage(NamedTuple):
 
     when: str
     text: str
-    number: int = 0
+    number: float = 0
     cell: Cell = NO_CELL
     seconds: float = 0
     size: tuple[int, int] = FRAME_SIZE
@@ -156,7 +156,8 @@ def _parse_message(part: str) -> LevelMessage:
     if moment in _EVENTS:
         return LevelMessage(moment, text, seconds=seconds, important=important)
     if match := _COUNTED.fullmatch(moment):
-        return LevelMessage(moment.split()[0], text, int(match[1] or match[2]), seconds=seconds, important=important)
+        number = int(match[1]) if match[1] else float(match[2])
+        return LevelMessage(moment.split()[0], text, number, seconds=seconds, important=important)
     if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[2]), int(match[3]))):
         size = (int(match[4]), int(match[5])) if match[4] else FRAME_SIZE
         if size[0] <= COLUMNS and size[1] <= ROWS and (match[1] == "at" or not match[4]):

@@ -421,7 +421,12 @@ class MessagesScreen(MenuScreen):
         theme.text(surface, count, 764, 24, size=11, colour=theme.palette.on_tile, align="right")
         self._draw_level(surface, self.selected)
         x, y, w, h = _PICTURE
-        below = x, y + h + 10, w, END - y - h - 10
+        top = y + h + 10
+        if self.selected and self.selected.problem[1] and (wrong := self._wrong(self.selected)):
+            text = f"Message {self.number + 1} is wrong. {wrong}"
+            theme.paragraph(surface, [text], (x, top, w, 34), 13, 17, colour=theme.palette.bad)
+            top += 42
+        below = x, top, w, END - top
         theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
 
     def _draw_notes(self, surface: pygame.Surface, number: int) -> None:
@@ -444,7 +449,7 @@ class MessagesScreen(MenuScreen):
         if message.unknown:
             return f"There is no {message.unknown}: the words are at the right"
         if problem:
-            return problem if self._refused or field == TIME else ""
+            return problem if self._refused or field == TIME or (field != TEXT and message.detail) else ""
         for finding in self._unseen(message):
             return f"Never shown: {finding.text.rpartition(': ')[2]}"
         return self._wait_of(message)

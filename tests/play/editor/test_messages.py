@@ -1069,6 +1069,31 @@ def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_o
     assert opened(room).messages[0].time == "1.5"
 
 
+def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(room: Maker) -> None:
+    screen = opened(room, "start: a | start: b | start: c | start: d | after 20 s: e")
+    for typed, problem in (("2.55", "How many seconds: a number from 0.1 to 99.9"), ("2,5", "")):
+        if screen.first == 0:
+            room.choose("Page 1 of 2")
+        select(room, 4, 1)
+        room.chord("a", pygame.KMOD_LCTRL)
+        for letter in typed:
+            pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
+        room.frames()
+        assert (f"text 'Message 5 is wrong. {problem}'" in drawn(room.app)) == bool(problem)
+        room.choose("Page 2 of 2")
+        assert screen.first == 0, "the page can be turned"
+        room.choose("Test")
+        if problem:
+            assert screen.focus is screen.rows[4][1], "the wrong field, on its page"
+            assert screen.focus in screen.widgets
+            assert f"text 'Message 5 is wrong. {problem}'" in drawn(room.app)
+    play = room.shown(TryScreen).play
+    room.press("escape")
+    room.choose("OK")
+    assert room.draft.says.endswith("after 2.5 s: e")
+    assert [m.number for m in play.playthrough.messages()][4] == 2.5
+
+
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
     opened(doors, "gold: {gold taken} taken and {gold left} left, {deaths} deaths")
     assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
