@@ -265,23 +265,24 @@ def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list
     return comings
 
 
-def late_text(moment: Heard) -> str:
-    """What keeps a message from being read in time in a level's known run; '' if nothing does."""
+def late_text(moment: Heard, ticks: int) -> str:
+    """What keeps a message from being read in time in a level's known run of so many ticks; '' if nothing does."""
+    run = f"in the known run ({ticks / TICKS_PER_SECOND:.1f} s)"
     if moment.tick is None:
-        return "not shown in the known run: others are read then"
+        return f"not shown {run}: others are read then"
     late = (moment.tick - moment.due) // TICKS_PER_SECOND
     if late:
-        return f"{late} s late in the known run: others are read first"
-    return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s in the known run, too soon" if moment.cut else ""
+        return f"{late} s late {run}: others are read first"
+    return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s {run}, too soon" if moment.cut else ""
 
 
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
-    """Findings about messages that wait for others in the known run, except those after another of the same moment."""
+    """Findings about messages that are lost to others in the known run, except those after another of their moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
     for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
         moment = message.when, message.number, message.cell
-        if coming and moment not in past and (why := late_text(coming)):
-            cell = cell_of(*(message.place or coming.spot))
+        if coming and coming.tick is None and moment not in past:
+            cell, why = cell_of(*(message.place or coming.spot)), late_text(coming, len(inputs))
             yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
         past.add(moment)
 

@@ -438,7 +438,9 @@ class MessagesScreen(MenuScreen):
         colour = palette.faint if length < MAX_LETTERS else palette.bad
         theme.text(surface, f"{length} of {MAX_LETTERS}", 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
         wrong = self._wrong(message)
-        text, colour = (wrong, palette.bad) if wrong else (self._turn_of(message), palette.faint)
+        text, colour = (
+            (wrong, palette.bad) if wrong else (self._wait_of(message) or self._turn_of(message), palette.faint)
+        )
         theme.text(surface, text, 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56)
         if number == self.number:
             theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
@@ -452,7 +454,7 @@ class MessagesScreen(MenuScreen):
             return problem if self._refused or field == TIME or (field != TEXT and message.detail) else ""
         for finding in self._unseen(message):
             return f"Never shown: {finding.text.rpartition(': ')[2]}"
-        return self._wait_of(message)
+        return self._wait_of(message, lost=True)
 
     def _help_texts(self) -> list[str]:
         texts, selected = [], self.selected
@@ -495,10 +497,11 @@ class MessagesScreen(MenuScreen):
             return None
         return answer[1][sound.index(message)]
 
-    def _wait_of(self, message: MessageRow) -> str:
-        """How late a message comes in the known run because others are read first; '' if it is in time."""
+    def _wait_of(self, message: MessageRow, *, lost: bool = False) -> str:
+        """That a message is lost to others in the known run, or how late or short it is there; '' if it is not."""
         moment = self._heard(message) if self._together(message)[0] is message else None
-        text = late_text(moment) if moment else ""
+        is_so = moment and (moment.tick is None) is lost
+        text = late_text(moment, len(self._certifying_inputs())) if moment and is_so else ""
         return text[:1].upper() + text[1:]
 
     def _together(self, message: MessageRow) -> list[MessageRow]:
