@@ -11,7 +11,7 @@ from ninja_game.sim.grid import Cell, cell_at, cell_index, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 8, 120, 3
+MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 16, 120, 3
 FRAME_SIZE = 5, 5  # columns and rows of the frame around the place of a message that has no size of its own
 NO_CELL: Cell = 0, 0  # the cell of a message that is about none
 SEPARATOR = "|"  # separates two messages

@@ -39,7 +39,7 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("gold 0: a", "unknown moment"),
         ("gold! for 9 s: a", "unknown moment"),
         ("gold all: a", "expected start, switch, gold, all gold"),
-        (" | ".join(["start: a"] * 9), "too many messages in 'says'; found 9; expected at most 8"),
+        (" | ".join(["start: a"] * 17), "too many messages in 'says'; found 17; expected at most 16"),
     ],
 )
 def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) -> None:

@@ -185,7 +185,8 @@ class MessagesScreen(MenuScreen):
         rows = [widget for row in self.rows[self.first : self.first + SHOWN] for widget in row]
         y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
         if len(self.messages) > SHOWN:
-            text, others = f"Page {self.first // SHOWN + 1} of 2", (self.first + SHOWN) % MAX_MESSAGES
+            pages, page = -(-len(self.messages) // SHOWN), self.first // SHOWN
+            text, others = f"Page {page + 1} of {pages}", (page + 1) % pages * SHOWN
             rows.append(Button((600, 15, 98, 26), text, partial(self.select, others), hint="The others: the wheel"))
         most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
         up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
@@ -258,8 +259,8 @@ class MessagesScreen(MenuScreen):
         Beside the picture the wheel turns the page.
         """
         if event.type == pygame.MOUSEWHEEL:
-            number, beside = SHOWN if event.y < 0 else 0, self._level_point(pygame.mouse.get_pos()) is None
-            if beside and number < len(self.messages) and number != self.first:
+            number = self.first + (SHOWN if event.y < 0 else -SHOWN)
+            if self._level_point(pygame.mouse.get_pos()) is None and 0 <= number < len(self.messages):
                 self.select(number)
             return
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT

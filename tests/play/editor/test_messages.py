@@ -212,27 +212,29 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
     assert opened(room).source == room.draft.says
 
 
-def test_eight_messages_lie_on_two_pages(room: Maker) -> None:
+def test_the_most_messages_lie_on_four_pages(room: Maker) -> None:
     screen = opened(room)
-    add(room, *"abcdefgh")
+    add(room, *"abcdefghijklmnop")
     x, y, *_ = screen.rows[4][TEXT].area
-    for notches, first in ((-1, 4), (1, 0), (2, 0), (-1, 4)):
+    assert not room.button("Add").enabled
+    assert screen.first == 12
+    room.choose("Page 4 of 4")
+    for notches, first in ((-1, 4), (1, 0), (2, 0), (-1, 4), (-1, 8), (-1, 12), (-1, 12), (1, 8), (1, 4)):
         room.wheel(notches, x + 9, y + 9)
         assert screen.first == first
         assert screen.focus in screen.widgets
     room.wheel(1, *in_picture(9, 9))
     assert screen.first == 4
-    assert not room.button("Add").enabled
     assert [widget in screen.widgets for widget in (screen.rows[3][0], screen.rows[4][0])] == [0, 1]
-    assert "text 'Page 2 of 2'" in drawn(room.app)
-    room.choose("Page 2 of 2")
-    assert screen.focus is screen.rows[0][TEXT]
+    assert "text 'Page 2 of 4'" in drawn(room.app)
+    room.choose("Page 2 of 4")
+    assert screen.focus is screen.rows[8][TEXT]
     room.type("z")
     screen.messages[5].text = ""
     room.choose("OK")
     assert screen.focus is screen.rows[5][TEXT], "what is wrong is shown, on whatever page it is"
     room.choose("Remove")
-    assert texts_of(screen) == "azbcdegh"
+    assert texts_of(screen) == "abcdeghizjklmnop"
 
 
 def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker) -> None:
@@ -262,20 +264,21 @@ def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: 
 
 
 def test_all_messages_fit_into_the_page_and_one_is_removed(room: Maker) -> None:
-    screen = opened(room, ALL)
+    twice = f"{ALL} | {ALL}"
+    screen = opened(room, twice)
     assert len(screen.messages) == MAX_MESSAGES
     assert not room.button("Add").enabled
     room.choose("OK")
-    assert room.draft.says == ALL
+    assert room.draft.says == twice
     opened(room)
     room.choose("Remove")
     room.choose("OK")
-    assert room.draft.says == ALL.partition(" | ")[2]
+    assert room.draft.says == twice.partition(" | ")[2]
     opened(room)
     room.choose("Remove")
     room.choose("Cancel")
     room.choose("Discard changes")
-    assert room.draft.says == ALL.partition(" | ")[2]
+    assert room.draft.says == twice.partition(" | ")[2]
 
 
 @pytest.mark.parametrize(
@@ -716,7 +719,7 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
     screen.focus = next(widget for widget in screen.widgets if getattr(widget, "text", "") == "Down")
     room.press("return", "return")
     assert (texts_of(screen), screen.number) == ("cdaccdb", 3), "the button keeps the focus"
-    for _ in range(9):
+    for _ in range(MAX_MESSAGES):
         room.chord("d", pygame.KMOD_LCTRL)
     assert len(screen.messages) == MAX_MESSAGES
     screen.messages = []
@@ -898,7 +901,7 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what a text names"
     assert shown.count("text 'all of it'") == 2, "in its field and in the level"
-    assert "text '1 of 8'" in shown
+    assert "text '1 of 16'" in shown
     assert len(painted) == 1
     screen = room.shown(MessagesScreen)
     screen.messages[0].text = "to the {switch} and the {exit}"
