@@ -6,7 +6,8 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, NO_CELL, parse_messages
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, NO_CELL, parse_messages
 
 PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
 
@@ -46,6 +47,13 @@ def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) ->
     with pytest.raises(LevelError, match=r"^a\.txt:3: ") as caught:
         parse_ascii_level(f"ninja-game level 1\nname: A\nsays: {value}\n{PICTURE}", file="a.txt")
     assert words in str(caught.value)
+
+
+def test_a_level_with_the_most_and_longest_messages_is_read_as_it_is_written() -> None:
+    says = " | ".join(["at 12,10 15x15 for 99.9 s!: " + "x" * MAX_LETTERS] * MAX_MESSAGES)
+    level = parse_ascii_level(f"ninja-game level 1\nname: A\nsays: {says}\n{PICTURE}")
+    again = parse_ascii_level(write_ascii_level(level.level, name="A", says=level.says))
+    assert (again.says, len(parse_messages(again.says))) == (says, MAX_MESSAGES)
 
 
 def test_a_place_has_a_frame_of_five_cells_or_of_its_own_size() -> None:
