@@ -80,7 +80,8 @@ _WHEN = {
 _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
     "An important message (!) comes at once, and others wait until it was read.",
-    f"{listed(KEYS)} become the key or button of whoever plays; {listed(NUMBER_WORDS)} the number.",
+    f"{listed(KEYS)} become the player's keys.",
+    f"{listed(NUMBER_WORDS)} become the number: 'Deaths: {{deaths}}'.",
     f"{listed(TARGETS)} have an arrow while their message is shown.",
     "In a level with messages the game gives no help of its own in play.",
 )
@@ -426,7 +427,7 @@ class MessagesScreen(MenuScreen):
         if self.selected and self.selected.problem[1] and (wrong := self._wrong(self.selected)):
             text = f"Message {self.number + 1} is wrong. {wrong}"
             theme.paragraph(surface, [text], (x, top, w, 34), 13, 17, colour=theme.palette.bad)
-            top += 42
+            top += 38
         below = x, top, w, END - top
         theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
 
@@ -439,6 +440,8 @@ class MessagesScreen(MenuScreen):
         colour = palette.faint if length < MAX_LETTERS else palette.bad
         theme.text(surface, f"{length} of {MAX_LETTERS}", 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
         wrong = self._wrong(message)
+        if not wrong and number == self.number and length >= MAX_LETTERS:
+            wrong = "Full: what is typed beyond is left out"
         text, colour = (
             (wrong, palette.bad) if wrong else (self._wait_of(message) or self._turn_of(message), palette.faint)
         )
@@ -466,8 +469,8 @@ class MessagesScreen(MenuScreen):
             texts.append("In the picture: a click puts it, a drag draws its frame, moves it or an edge.")
         if len(self._things_of(selected)) > 1:
             texts.append("A click in the picture on one of them: only when it is that one.")
-        texts += [finding.advice for finding in self._unseen(selected)]
-        return [*texts, *_HELP]
+        advice = [finding.advice for finding in self._unseen(selected)]
+        return [*texts, *advice, *(_HELP[2:] if advice or (selected and selected.problem[1]) else _HELP)]
 
     def _unseen(self, message: MessageRow | None) -> list[Finding]:
         return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []

@@ -1101,6 +1101,18 @@ def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(r
     assert [m.number for m in play.playthrough.messages()][4] == 2.5
 
 
+def test_a_full_text_says_that_what_is_typed_beyond_is_left_out(room: Maker) -> None:
+    screen = opened(room, f"start: {'x' * (MAX_LETTERS - 1)}")
+    select(room, 0)
+    note = "text 'Full: what is typed beyond is left out'"
+    assert note not in drawn(room.app)
+    room.type("yz")
+    assert screen.messages[0].text.replace("x", "") == "y"
+    assert note in drawn(room.app)
+    room.press("backspace")
+    assert note not in drawn(room.app)
+
+
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
     opened(doors, "gold: {gold taken} taken and {gold left} left, {deaths} deaths")
     assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
