@@ -1113,6 +1113,18 @@ def test_a_full_text_says_that_what_is_typed_beyond_is_left_out(room: Maker) -> 
     assert note not in drawn(room.app)
 
 
+def test_undo_in_a_text_goes_back_word_by_word(room: Maker) -> None:
+    screen = opened(room)
+    add(room, "run and jump")
+    room.press("backspace")
+    room.type("ps now")
+    texts = []
+    for _ in range(6):
+        room.chord("z", pygame.KMOD_LCTRL)
+        texts.append(screen.messages[0].text)
+    assert texts == ["run and jumps", "run and jum", "run and jump", "run and", "run", ""]
+
+
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
     opened(doors, "gold: {gold taken} taken and {gold left} left, {deaths} deaths")
     assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
