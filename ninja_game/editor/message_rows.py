@@ -10,6 +10,7 @@ from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     FRAME_SIZE,
+    IMPORTANT,
     NO_CELL,
     SEPARATOR,
     WORDS,
@@ -26,7 +27,7 @@ DETAILS = {
     **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
     "gold": ("any", f"{_ONE}; 3: after so many"),
     "death": ("deaths", "How many deaths: a number from 1 to 99"),
-    "after": ("seconds", "How many seconds: a number from 1 to 99"),
+    "after": ("seconds", "How many seconds: a number from 0.1 to 99.9"),
     "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3"),
 }
 """What some moments may need besides: an example, and a hint."""
@@ -49,16 +50,18 @@ class MessageRow:
     detail: str = ""
     text: str = ""
     time: str = ""
+    important: bool = False
 
     @property
     def moment(self) -> str:
-        return f"{self.when} {' '.join(self.detail.split())}{' s' if self.when == 'after' else ''}".strip()
+        detail = " ".join(self.detail.split())
+        return f"{self.when} {detail.replace(',', '.')} s" if self.when == "after" else f"{self.when} {detail}".strip()
 
     @property
     def source(self) -> str:
         seconds = self.time.strip().replace(",", ".")
         shown_for = f" for {seconds} s" if seconds else ""
-        return f"{self.moment}{shown_for}: {header_form(self.text)}"
+        return f"{self.moment}{shown_for}{IMPORTANT * self.important}: {header_form(self.text)}"
 
     @property
     def problem(self) -> tuple[int, str]:
@@ -98,12 +101,15 @@ def _fits(source: str) -> bool:
 
 
 def messages_of(says: str) -> list[MessageRow]:
-    return [MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "") for m in parse_messages(says)]
+    return [
+        MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "", m.important)
+        for m in parse_messages(says)
+    ]
 
 
 def _detail(message: LevelMessage) -> str:
     if message.cell == NO_CELL:
-        return str(message.number or "")
+        return f"{message.number:g}" if message.number else ""
     return "{},{}".format(*message.cell) + (" {}x{}".format(*message.size) if message.size != FRAME_SIZE else "")
 
 

@@ -11,10 +11,11 @@ from ninja_game.sim.grid import Cell, cell_at, cell_index, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
 
-MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 8, 120, 3
+MAX_MESSAGES, MAX_LETTERS, MAX_MESSAGE_LINES = 16, 120, 3
 FRAME_SIZE = 5, 5  # columns and rows of the frame around the place of a message that has no size of its own
 NO_CELL: Cell = 0, 0  # the cell of a message that is about none
 SEPARATOR = "|"  # separates two messages
+IMPORTANT = "!"  # ends the moment of a message that comes before others
 _BREAK = r"\n"  # begins a new line of a text, in a file
 
 KEYS = ("left", "right", "jump", "retry", "suicide", "pause", "replay")
@@ -25,14 +26,14 @@ NUMBER_WORDS = ("gold left", "gold taken", "deaths")  # numbers that it may name
 WORDS = KEYS + TARGETS + NUMBER_WORDS
 
 _KEY = re.compile(r"\{([^{}]*)\}")
-_COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ([1-9][0-9]?) s")
+_COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ((?:[1-9][0-9]?|0(?=\.[1-9]))(?:\.[0-9])?) s")
 _PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ((?!0+(?:\.0)? )[0-9]{1,2}(?:\.[0-9])?) s")
 ALL_GOLD = "all gold"
 _EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
 _MOMENTS = (
-    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 20 s', 'at 12,5' or 'at 12,5 3x3',"
-    " then perhaps 'for 9 s' or 'for 1.5 s'"
+    f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 2.5 s', 'at 12,5' or 'at 12,5 3x3',"
+    " then perhaps 'for 9 s' or 'for 1.5 s', and '!' if it is important"
 )
 
 
@@ -47,10 +48,11 @@ class LevelMessage(NamedTuple):
 
     when: str
     text: str
-    number: int = 0
+    number: float = 0
     cell: Cell = NO_CELL
     seconds: float = 0
     size: tuple[int, int] = FRAME_SIZE
+    important: bool = False
 
     @property
     def one_line(self) -> str:
@@ -86,8 +88,8 @@ class LevelMessage(NamedTuple):
 def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     """The messages in a header's value, separated by bars. Raises LevelError.
 
-    >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1]
-    LevelMessage(when='death', text='Wait for the drone', number=3, cell=(0, 0), seconds=9.0, size=(5, 5))
+    >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1][:5]
+    ('death', 'Wait for the drone', 3, (0, 0), 9.0)
     """
     parts = value.split(SEPARATOR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:
@@ -149,16 +151,18 @@ def _parse_message(part: str) -> LevelMessage:
         raise LevelError("too many lines in a text in 'says'", found=found, expected=f"at most {MAX_MESSAGE_LINES}")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(WORDS))
-    timed = _TIME.fullmatch(when)
-    moment, seconds = (timed[1], float(timed[2])) if timed else (when, 0.0)
+    important, said_when = when.endswith(IMPORTANT), when.removesuffix(IMPORTANT).rstrip()
+    timed = _TIME.fullmatch(said_when)
+    moment, seconds = (timed[1], float(timed[2])) if timed else (said_when, 0.0)
     if moment in _EVENTS:
-        return LevelMessage(moment, text, seconds=seconds)
+        return LevelMessage(moment, text, seconds=seconds, important=important)
     if match := _COUNTED.fullmatch(moment):
-        return LevelMessage(moment.split()[0], text, int(match[1] or match[2]), seconds=seconds)
+        number = int(match[1]) if match[1] else float(match[2])
+        return LevelMessage(moment.split()[0], text, number, seconds=seconds, important=important)
     if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[2]), int(match[3]))):
         size = (int(match[4]), int(match[5])) if match[4] else FRAME_SIZE
         if size[0] <= COLUMNS and size[1] <= ROWS and (match[1] == "at" or not match[4]):
-            return LevelMessage(match[1], text, cell=cell, seconds=seconds, size=size)
+            return LevelMessage(match[1], text, cell=cell, seconds=seconds, size=size, important=important)
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_MOMENTS)
 
 

@@ -72,8 +72,9 @@ class MessageQueue:
 
     A message of the start comes at each start until the exit is open, any other once. What just happened replaces
     what is shown; a place or a time waits until that was read, for its ``read_ticks``, and comes again if it was
-    replaced before. What was read in an earlier try holds nothing back. The text of a place without a time of its own
-    stays while the ninja is in its frame, unless another waits.
+    replaced before. What was read in an earlier try holds nothing back. An important message comes at once; until it
+    was read only another such that just happened replaces it. The text of a place without a time of its own stays while
+    the ninja is in its frame, unless another waits.
     """
 
     def __init__(
@@ -176,11 +177,19 @@ class MessageQueue:
         if any(event.kind == EXIT_OPENED for event in events):
             self.drop_start()
         ahead = [message for message in self._messages if message not in self._shown]
+        held = bool(self.is_unread and self.message and self.message.important)
         new = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
-        if not new and not self.is_unread:
-            new = [message for message in ahead if self._is_at(world, message) or _is_due(world, message)]
-        if new:
-            self._shown.update(new)
+        waits = bool(new) or self.is_unread
+        new += [
+            message
+            for message in ahead
+            if (not held if message.important else not waits)
+            and (self._is_at(world, message) or _is_due(world, message))
+        ]
+        self._shown.update(new)
+        if held and not any(message.important for message in new):
+            self._next += _in_turn(new)
+        elif new:
             self._say_now(*_in_turn(new))
         if self._again and self._is_stuck(world):
             self._again = False
@@ -256,23 +265,24 @@ def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list
     return comings
 
 
-def late_text(moment: Heard) -> str:
-    """What keeps a message from being read in time in a level's known run; '' if nothing does."""
+def late_text(moment: Heard, ticks: int) -> str:
+    """What keeps a message from being read in time in a level's known run of so many ticks; '' if nothing does."""
+    run = f"in the known run ({ticks / TICKS_PER_SECOND:.1f} s)"
     if moment.tick is None:
-        return "not shown in the known run: others are read then"
+        return f"not shown {run}: others are read then"
     late = (moment.tick - moment.due) // TICKS_PER_SECOND
     if late:
-        return f"{late} s late in the known run: others are read first"
-    return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s in the known run, too soon" if moment.cut else ""
+        return f"{late} s late {run}: others are read first"
+    return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s {run}, too soon" if moment.cut else ""
 
 
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
-    """Findings about messages that wait for others in the known run, except those after another of the same moment."""
+    """Findings about messages that are lost to others in the known run, except those after another of their moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
     for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
         moment = message.when, message.number, message.cell
-        if coming and moment not in past and (why := late_text(coming)):
-            cell = cell_of(*(message.place or coming.spot))
+        if coming and coming.tick is None and moment not in past:
+            cell, why = cell_of(*(message.place or coming.spot)), late_text(coming, len(inputs))
             yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
         past.add(moment)
 
@@ -314,8 +324,10 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
 
 def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
+    """Texts of one tick, the important ones first."""
     return [
-        (m.text, round(m.seconds * TICKS_PER_SECOND) or shown_ticks(m.when, len(messages), m.text), m) for m in messages
+        (m.text, round(m.seconds * TICKS_PER_SECOND) or shown_ticks(m.when, len(messages), m.text), m)
+        for m in sorted(messages, key=lambda m: not m.important)
     ]
 
 

@@ -20,7 +20,7 @@ from ninja_game.simulation import Simulation
 def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Finding]:
     """What is odd about a level: the same in the editor and in its pack.
 
-    ``inputs``: of a known run, in which messages may come late. Raises LevelError for messages that cannot be read.
+    ``inputs``: of a known run, in which messages may be lost. Raises LevelError for messages that cannot be read.
     """
     odd = [*level_findings(level, says), *late_messages(level, says, inputs)]
     # One finding is enough for an enclosed exit: its switch gets one once the exit can be reached.

@@ -244,6 +244,7 @@ class EditedText:
         self.cursor = self.anchor = len(text)
         self.was_full = False
         self._past: list[tuple[str, int, int]] = []
+        self._typed_to = -1  # where a word ends that is being typed: undone as a whole
 
     @property
     def span(self) -> tuple[int, int]:
@@ -291,12 +292,16 @@ class EditedText:
         line = "".join(char for char in line if char == "\n" or char.isprintable())
         room = max(0, self.longest - len(self.text) + last - first)
         self.was_full, line = len(line) > room, line[:room]
-        if line != self.selected:
+        goes_on = len(line) == 1 and not line.isspace() and first == last == self._typed_to
+        if line != self.selected and not goes_on:
             self._past.append((self.text, self.cursor, self.anchor))
         self.text = self.text[:first] + line + self.text[last:]
         self.go(first + len(line))
+        self._typed_to = self.cursor if len(line) == 1 else -1
 
     def undo(self) -> None:
+        """Take back the last word typed, with the space before it, or the last other change."""
+        self._typed_to = -1
         if self._past:
             self.text, self.cursor, self.anchor = self._past.pop()
 

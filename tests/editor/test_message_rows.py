@@ -9,8 +9,8 @@ from ninja_game.formats.messages import LevelMessage
 from ninja_game.sim.rules import CELL
 
 ALL = (
-    "start: {jump} jumps | switch for 9 s: Now the exit | at 12,5: Jump: here | after 20 s: Slide"
-    " | death 5 for 12 s: Go round | at 3,5 3x1 for 1 s: No | gold 2: Yes | lock 4,5: Open"
+    "start: {jump} jumps | switch for 9 s: Now the exit | at 12,5: Jump: here | after 2.5 s: Slide"
+    " | death 5 for 12 s: Go round | at 3,5 3x1 for 1 s: No | gold 2!: Yes | lock 4,5 for 2 s!: Open"
 )
 
 

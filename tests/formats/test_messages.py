@@ -6,7 +6,8 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, NO_CELL, parse_messages
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, NO_CELL, parse_messages
 
 PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
 
@@ -24,6 +25,9 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         ("lock 12,5 3x3: jump", "unknown moment"),
         ("start 12,5: jump", "unknown moment in 'says'; found 'start 12,5'; expected start, switch, gold"),
         ("after 0 s: jump", "unknown moment"),
+        ("after 0.0 s: jump", "unknown moment"),
+        ("after 2.55 s: jump", "unknown moment"),
+        ("after 100 s: jump", "unknown moment"),
         ("after 20: jump", "unknown moment"),
         ("start for 100 s: jump", "unknown moment"),
         ("start for 0 s: jump", "unknown moment"),
@@ -34,8 +38,9 @@ PICTURE = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
         (r"start: a\nb\nc\nd", "too many lines in a text in 'says'; found 'start: a"),
         (r"start: \n ", "expected WHEN: text"),
         ("gold 0: a", "unknown moment"),
+        ("gold! for 9 s: a", "unknown moment"),
         ("gold all: a", "expected start, switch, gold, all gold"),
-        (" | ".join(["start: a"] * 9), "too many messages in 'says'; found 9; expected at most 8"),
+        (" | ".join(["start: a"] * 17), "too many messages in 'says'; found 17; expected at most 16"),
     ],
 )
 def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) -> None:
@@ -44,12 +49,24 @@ def test_what_cannot_be_said_is_refused_with_its_line(value: str, words: str) ->
     assert words in str(caught.value)
 
 
+def test_a_level_with_the_most_and_longest_messages_is_read_as_it_is_written() -> None:
+    says = " | ".join(["at 12,10 15x15 for 99.9 s!: " + "x" * MAX_LETTERS] * MAX_MESSAGES)
+    level = parse_ascii_level(f"ninja-game level 1\nname: A\nsays: {says}\n{PICTURE}")
+    again = parse_ascii_level(write_ascii_level(level.level, name="A", says=level.says))
+    assert (again.says, len(parse_messages(again.says))) == (says, MAX_MESSAGES)
+
+
 def test_a_place_has_a_frame_of_five_cells_or_of_its_own_size() -> None:
     usual, own = parse_messages("at 12,5: a | at 3,4 31x1 for 9 s: b")
     assert (usual.size, usual.reach, own.size, own.cell, own.seconds) == ((5, 5), (60.0, 60.0), (31, 1), (3, 4), 9)
     for size in ("0x3", "3x0", "32x1", "1x24", "3", "3x3x3"):
         with pytest.raises(LevelError, match="unknown moment"):
             parse_messages(f"at 12,5 {size}: a")
+
+
+def test_a_mark_behind_the_moment_makes_a_message_important() -> None:
+    read = parse_messages("start: a! | death 3!: b | at 3,4 for 9 s !: c | gold!: d")
+    assert [message.important for message in read] == [False, True, True, True]
 
 
 def test_a_frame_of_an_even_size_lies_on_cells() -> None:

@@ -303,9 +303,9 @@ class EditorCommands(DocumentCommands):
         session, messages = self.session, parse_messages(says)
         level, message = session.draft.level, messages[number] if messages else None
         if message is None or message.when in {"start", "death"}:
-            self.test(None, says, (b"", message.number if message else 0))
+            self.test(None, says, (b"", int(message.number) if message else 0))
             return
-        waits = bytes(message.number * TICKS_PER_SECOND + 1)
+        waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
         runs = [session.certifying_inputs, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
         with suppress(LevelError):  # without a ninja, which the test reports
             moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))

@@ -28,6 +28,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     ALL_GOLD,
     FRAME_SIZE,
+    IMPORTANT,
     KEYS,
     MAX_LETTERS,
     MAX_MESSAGE_LINES,
@@ -86,12 +87,16 @@ _WHEN = {
 
 _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
-    f"{listed(KEYS)} become the key or button of whoever plays; {listed(NUMBER_WORDS)} the number.",
+    "An important message (!) comes at once, and others wait until it was read.",
+    f"{listed(KEYS)} become the player's keys.",
+    f"{listed(NUMBER_WORDS)} become the number: 'Deaths: {{deaths}}'.",
     f"{listed(TARGETS)} have an arrow while their message is shown.",
     "In a level with messages the game gives no help of its own in play.",
 )
 
 _HANDLE = 9.0  # side of the handles of the selected frame, px of the level
+
+_IMPORTANT_HINT = "The selected message comes at once, and is not replaced before it was read: marked with !"
 
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
@@ -189,8 +194,9 @@ class MessagesScreen(MenuScreen):
         rows = [widget for row in self.rows[self.first : self.first + SHOWN] for widget in row]
         y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
         if len(self.messages) > SHOWN:
-            text, others = f"Page {self.first // SHOWN + 1} of 2", (self.first + SHOWN) % MAX_MESSAGES
-            rows.append(Button((342, y, 98, 28), text, partial(self.select, others), hint="The others: the wheel"))
+            pages, page = -(-len(self.messages) // SHOWN), self.first // SHOWN
+            text, others = f"Page {page + 1} of {pages}", (page + 1) % pages * SHOWN
+            rows.append(Button((600, 15, 98, 26), text, partial(self.select, others), hint="The others: the wheel"))
         most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
         up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
         buttons: list[tuple[float, float, str, Action | None, str]] = [
@@ -203,7 +209,10 @@ class MessagesScreen(MenuScreen):
             (558, 98, "OK", self._accept, "Ctrl+Enter"),
             (666, 98, "Cancel", self.close, ""),
         ]
-        return [*rows, *(Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons)]
+        mark = self._mark if some else None
+        self._important = Button((342, y, 98, 28), "Important: no", mark, hint=_IMPORTANT_HINT, size=10.5)
+        fixed = [Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons]
+        return [*rows, *fixed[:5], self._important, *fixed[5:]]
 
     @property
     def first(self) -> int:
@@ -259,8 +268,8 @@ class MessagesScreen(MenuScreen):
         Beside the picture the wheel turns the page.
         """
         if event.type == pygame.MOUSEWHEEL:
-            number, beside = SHOWN if event.y < 0 else 0, self._level_point(pygame.mouse.get_pos()) is None
-            if beside and number < len(self.messages) and number != self.first:
+            number = self.first + (SHOWN if event.y < 0 else -SHOWN)
+            if self._level_point(pygame.mouse.get_pos()) is None and 0 <= number < len(self.messages):
                 self.select(number)
             return
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
@@ -344,6 +353,10 @@ class MessagesScreen(MenuScreen):
             others = [other for other in self.messages if other is not selected]
             self._put_at(self.number + by * far, selected, others)
 
+    def _mark(self) -> None:
+        if self.selected:
+            self.selected.important = not self.selected.important
+
     def _remove(self) -> None:
         del self.messages[self.number]
         self.number = min(self.number, max(0, len(self.messages) - 1))
@@ -410,6 +423,7 @@ class MessagesScreen(MenuScreen):
         super().draw_frame(surface)
         theme = self.theme
         self.number = next((k for k, row in enumerate(self.rows) if self.focus in row), self.number)
+        self._important.text = f"Important: {'yes' if self.selected and self.selected.important else 'no'}"
         self._ask_about_run()
         for number in range(self.first, min(self.first + SHOWN, len(self.messages))):
             self._draw_notes(surface, number)
@@ -417,18 +431,28 @@ class MessagesScreen(MenuScreen):
         theme.text(surface, count, 764, 24, size=11, colour=theme.palette.on_tile, align="right")
         self._draw_level(surface, self.selected)
         x, y, w, h = _PICTURE
-        below = x, y + h + 10, w, END - y - h - 10
+        top = y + h + 10
+        if self.selected and self.selected.problem[1] and (wrong := self._wrong(self.selected)):
+            text = f"Message {self.number + 1} is wrong. {wrong}"
+            theme.paragraph(surface, [text], (x, top, w, 34), 13, 17, colour=theme.palette.bad)
+            top += 38
+        below = x, top, w, END - top
         theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
 
     def _draw_notes(self, surface: pygame.Surface, number: int) -> None:
         """Draw the number of a message, its problem, and the count of its letters around its fields."""
         theme, palette, message = self.theme, self.theme.palette, self.messages[number]
         row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
-        theme.text(surface, str(number + 1), 32, row + 36, size=9, bold=True, align="right")
+        for place, mark in enumerate((str(number + 1), IMPORTANT * message.important)):
+            theme.text(surface, mark, 32, row + 36 + 34 * place, size=9, bold=True, align="right")
         colour = palette.faint if length < MAX_LETTERS else palette.bad
         theme.text(surface, f"{length} of {MAX_LETTERS}", 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
         wrong = self._wrong(message)
-        text, colour = (wrong, palette.bad) if wrong else (self._turn_of(message), palette.faint)
+        if not wrong and number == self.number and length >= MAX_LETTERS:
+            wrong = "Full: what is typed beyond is left out"
+        text, colour = (
+            (wrong, palette.bad) if wrong else (self._wait_of(message) or self._turn_of(message), palette.faint)
+        )
         theme.text(surface, text, 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56)
         if number == self.number:
             theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
@@ -439,10 +463,10 @@ class MessagesScreen(MenuScreen):
         if message.unknown:
             return f"There is no {message.unknown}: the words are at the right"
         if problem:
-            return problem if self._refused or field == TIME else ""
+            return problem if self._refused or field == TIME or (field != TEXT and message.detail) else ""
         for finding in self._unseen(message):
             return f"Never shown: {finding.text.rpartition(': ')[2]}"
-        return self._wait_of(message)
+        return self._wait_of(message, lost=True)
 
     def _help_texts(self) -> list[str]:
         texts, selected = [], self.selected
@@ -453,8 +477,8 @@ class MessagesScreen(MenuScreen):
             texts.append("In the picture: a click puts it, a drag draws its frame, moves it or an edge.")
         if len(self._things_of(selected)) > 1:
             texts.append("A click in the picture on one of them: only when it is that one.")
-        texts += [finding.advice for finding in self._unseen(selected)]
-        return [*texts, *_HELP]
+        advice = [finding.advice for finding in self._unseen(selected)]
+        return [*texts, *advice, *(_HELP[2:] if advice or (selected and selected.problem[1]) else _HELP)]
 
     def _unseen(self, message: MessageRow | None) -> list[Finding]:
         return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []
@@ -485,10 +509,11 @@ class MessagesScreen(MenuScreen):
             return None
         return answer[1][sound.index(message)]
 
-    def _wait_of(self, message: MessageRow) -> str:
-        """How late a message comes in the known run because others are read first; '' if it is in time."""
+    def _wait_of(self, message: MessageRow, *, lost: bool = False) -> str:
+        """That a message is lost to others in the known run, or how late or short it is there; '' if it is not."""
         moment = self._heard(message) if self._together(message)[0] is message else None
-        text = late_text(moment) if moment else ""
+        is_so = moment and (moment.tick is None) is lost
+        text = late_text(moment, len(self._certifying_inputs())) if moment and is_so else ""
         return text[:1].upper() + text[1:]
 
     def _together(self, message: MessageRow) -> list[MessageRow]:

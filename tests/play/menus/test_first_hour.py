@@ -264,6 +264,19 @@ def test_a_place_that_was_replaced_before_it_was_read_comes_again() -> None:
     assert seen == [(0, "Gold"), (need, "One"), (150, "Shut"), (again, "One"), (again + SHOWN_TICKS, "Two")]
 
 
+def test_what_just_happened_waits_until_an_important_message_was_read() -> None:
+    told = MessageQueue(parse_messages("start: Go on | at 3,22!: One | gold: Gold | trap!: Shut | at 3,22!: Two"))
+    world = Simulation(room_level(["#@..#"], ())).world
+    world.ninja.x, world.ninja.y = 84.0, 540.0
+    seen = []
+    for tick in range(9 * SHOWN_TICKS):
+        world.event_count, world.events[0].kind = int(tick in (20, 40)), TRAP_CLOSED if tick > 20 else GOLD_TAKEN
+        seen += [(tick, told.text)] if told.on_tick(world) else []
+    again = 40 + read_ticks("Shut")
+    assert seen[:3] == [(0, "One"), (40, "Shut"), (again, "One")], "another important one replaces it, no gold"
+    assert [text for _, text in seen[3:]] == ["Two", "Gold", ""]
+
+
 def test_all_gold_and_a_number_of_gold_have_their_moments() -> None:
     level = parse_level_string("0" * 713 + "|5^100,566!0^200,566!0^300,566!0^400,566!11^700,64,700,264")
     run, came = Simulation(level), dict[str, int]()
