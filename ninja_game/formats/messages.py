@@ -52,7 +52,7 @@ class LevelMessage(NamedTuple):
     cell: Cell = NO_CELL
     seconds: float = 0
     size: tuple[int, int] = FRAME_SIZE
-    important: bool = False
+    important: bool = False  #: comes at once, and stays until it was read or another important one happens
 
     @property
     def one_line(self) -> str:
