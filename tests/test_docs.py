@@ -80,6 +80,13 @@ def sections(name: str) -> set[str]:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=named)
+def test_examples_of_python_stand_between_fences(page: Path) -> None:
+    """Elsewhere Markdown makes nested quotes of ``>>>``."""
+    text = re.sub(r"^```.*?^```", "", text_of(page), flags=re.MULTILINE | re.DOTALL)
+    assert not re.findall(r"^ *>>>.*", text, re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
 def test_links_lead_somewhere(page: Path) -> None:
     dead = []
     for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", text_of(page)):
