@@ -18,9 +18,10 @@ import ninja_game
 import ninja_game.learn
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.play.editor.commands import EDITOR_COMMANDS
-from ninja_game.play.workspace import key_text
+from ninja_game.play.workspace import CommandTable, key_text
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.schema.world_fields import CAPACITY
+from ninja_game.tas_editor.commands import TAS_COMMANDS
 from ninja_game.ui.input.bindings import TAP_SECONDS
 from ninja_game.web.pages import documents
 
@@ -77,6 +78,13 @@ def anchors(page: Path) -> set[str]:
 def sections(name: str) -> set[str]:
     page = (ROOT / "docs" / "rules" / f"{name}.md").read_text("utf-8")
     return set(re.findall(r"^#+ (\d+(?:\.\d+)*)\.? ", page, re.MULTILINE))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_examples_of_python_stand_between_fences(page: Path) -> None:
+    """Elsewhere Markdown makes nested quotes of ``>>>``."""
+    text = re.sub(r"^```.*?^```", "", text_of(page), flags=re.MULTILINE | re.DOTALL)
+    assert not re.findall(r"^ *>>>.*", text, re.MULTILINE)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=named)
@@ -287,9 +295,10 @@ def test_nothing_is_said_in_a_private_dialect(phrase: str) -> None:
     assert not found, f"better: {PHRASES[phrase]}"
 
 
-def test_the_reference_of_the_editor_lists_its_keys() -> None:
-    table = text_of(ROOT / "docs" / "editor-reference.md").partition("## Keys")[2]
-    commands = [command for command in EDITOR_COMMANDS.commands if command.keys and command.name != "help"]
-    assert re.findall(r"^\| (.+) \| (.+) \|$", table, re.MULTILINE)[2:] == [
+@pytest.mark.parametrize("page, table", [("editor", EDITOR_COMMANDS), ("tas-editor", TAS_COMMANDS)])
+def test_the_reference_of_an_editor_lists_its_keys(page: str, table: CommandTable) -> None:
+    text = text_of(ROOT / "docs" / f"{page}-reference.md").partition("## Keys")[2]
+    commands = [command for command in table.commands if command.keys and command.name != "help"]
+    assert re.findall(r"^\| (.+) \| (.+) \|$", text, re.MULTILINE)[2:] == [
         (key_text(command), command.label) for command in commands
     ]

@@ -54,6 +54,19 @@ def test_what_tests_and_tools_share_imports_neither() -> None:
     assert not [text for text in tools if "sys.path" in text]
 
 
+def test_what_tests_import_at_the_top_exists_on_windows() -> None:
+    posix = {"fcntl", "grp", "pty", "pwd", "resource", "termios", "tty"}
+    imported = [
+        (str(path.relative_to(ROOT)), node.names[0].name if isinstance(node, ast.Import) else str(node.module))
+        for folder in ("tests", "tools")
+        for path in (ROOT / folder).rglob("*.py")
+        for node in ast.parse(path.read_text("utf-8")).body
+        if isinstance(node, ast.Import | ast.ImportFrom)
+    ]
+    assert len(imported) > 1000
+    assert not [(path, module) for path, module in imported if module in posix], "import it where it is used"
+
+
 def test_changelog_knows_the_version() -> None:
     changelog = (ROOT / "CHANGELOG.md").read_text("utf-8")
     released = re.findall(r"^## \[(\d+\.\d+(?:\.\d+)?)\]", changelog, re.MULTILINE)

@@ -65,7 +65,7 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
     equal: Counter[int] = Counter()
     strokes = []
     for down, ticks in groupby(keys):
-        stroke = down + 16 * len(list(ticks)) << 20
+        stroke = (down + 16 * len(list(ticks))) << 20
         equal[stroke] += 1
         strokes.append(stroke + equal[stroke])
     changes = [down & ~before | (before & ~down) << 4 for before, down in pairwise(keys)]

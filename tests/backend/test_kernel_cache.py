@@ -19,6 +19,7 @@ from ninja_game.errors import ArgumentError, FileError
 from ninja_game.files.user_folder import cache_folder
 from ninja_game.sim.ninja import tick
 from tests.support.slow import the_rest_is_slow
+from tests.support.special_files import needs_special_files
 from tests.support.warm_start import WarmStart
 
 needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numba is not installed")
@@ -96,6 +97,7 @@ def test_code_that_came_with_the_installation_is_used_where_it_is_for_any_proces
 
 
 @pytest.mark.slow
+@needs_special_files
 @needs_numba
 def test_a_pipe_with_the_name_of_a_kernel_holds_up_nobody(tmp_path: Path, run: Run) -> None:
     run(tmp_path)

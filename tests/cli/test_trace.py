@@ -20,6 +20,7 @@ from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.inputs import Demo
 from tests.support.memories import BOTH
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.special_files import needs_special_files
 
 
 def trace(*words: str | Path) -> Result:
@@ -110,7 +111,7 @@ def test_section_of_the_specification_is_reported(two: Path, tmp_path: Path) -> 
     assert "(specification: objects 8.12)" in result.stdout
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+@needs_special_files
 def test_a_pipe_is_no_trace_to_compare_with(two: Path, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     result = trace(two, "--against", tmp_path / "pipe")

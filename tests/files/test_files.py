@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -24,6 +23,7 @@ from ninja_game.files.locking import locked, read_abandoned, remove_abandoned, t
 from ninja_game.files.reading import Skipped, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.user_folder import user_folder
 from ninja_game.files.writing import open_atomically, remove_leftovers, write_atomically
+from tests.support.special_files import needs_special_files
 
 
 def test_file_is_replaced_by_the_whole_new_one(tmp_path: Path) -> None:
@@ -75,6 +75,7 @@ def test_link_stays_and_its_target_is_written(tmp_path: Path) -> None:
     assert target.read_text() == "new"
 
 
+@needs_special_files
 @pytest.mark.parametrize("kind", ["device", "pipe", "folder", "link to a device"])
 def test_only_regular_files_are_written(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "out"
@@ -115,6 +116,7 @@ def test_errors_name_the_file_that_was_asked_for(tmp_path: Path) -> None:
 
 
 def test_full_disk_is_an_error_and_leaves_nothing(tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
     path = tmp_path / "a.png"
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -170,6 +172,7 @@ def test_leftovers_of_killed_writers_are_removed_and_live_ones_stay(tmp_path: Pa
 # --- reading ---
 
 
+@needs_special_files
 def test_only_regular_files_are_read(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
     for path in (tmp_path, tmp_path / "pipe", Path("/dev/zero")):
@@ -193,6 +196,7 @@ def test_what_is_not_text_is_an_error_with_its_place(tmp_path: Path) -> None:
         read_text(path)
 
 
+@needs_special_files
 def test_walk_survives_loops_pipes_and_links_and_names_what_it_left_out(tmp_path: Path) -> None:
     for name in ("a.txt", "sub/b.txt", "sub.txt", ".hidden/c.txt"):
         (tmp_path / name).parent.mkdir(exist_ok=True)

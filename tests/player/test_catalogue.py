@@ -15,6 +15,7 @@ from ninja_game.player.playthrough import EpisodePlaythrough
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from tests.support.own_pack import PACK
 from tests.support.players import played, short_level
+from tests.support.special_files import needs_special_files
 
 
 def test_bundled_episodes_can_be_read_and_name_each_level_once() -> None:
@@ -41,6 +42,7 @@ def test_broken_file_is_named_and_the_others_stay(tmp_path: Path) -> None:
     assert "b.txt" in catalogue.problems[0]
 
 
+@needs_special_files
 def test_odd_things_in_the_players_folder_are_named_and_stop_nothing(tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text(write_level_string(short_level()))
     os.mkfifo(tmp_path / "pipe.txt")

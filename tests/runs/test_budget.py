@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import resource
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -130,10 +130,10 @@ def test_the_costliest_run_takes_seconds_of_the_processor(tmp_path: Path) -> Non
     pytest.importorskip("numba")
     level = heavy_level()
     run_level(level, bytes(2), memory="compiled")
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_utime
+    before = time.process_time()
     with pytest.raises(BudgetError):
         verify_recording(recording(level, 999_999), "compiled")
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_utime - before < 20
+    assert time.process_time() - before < 20
     file = tmp_path / "run.txt"
     text = write_level_string(level, exact=True)
     file.write_text(f"$run#me##{text}#{write_demo(Demo(bytes(30), 30.0))}#", "utf-8")

@@ -54,6 +54,7 @@ from tests.support.samples import (
     unclaimed_text,
     write_records,
 )
+from tests.support.special_files import needs_special_files
 
 verify_plainly = partial(verify_all, memory="plain", processes=False)
 """In threads: processes of its own would take longer than all that they are to do."""
@@ -153,7 +154,7 @@ def test_free_text_behind_a_level_is_no_corrupt_demo(tmp_path: Path) -> None:
     assert list(verify_plainly([tmp_path])) == []
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+@needs_special_files
 def test_a_folder_with_pipes_and_loops_is_verified_and_what_was_left_out_is_named(tmp_path: Path) -> None:
     write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
     os.mkfifo(tmp_path / "pipe.txt")

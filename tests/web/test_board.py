@@ -45,6 +45,7 @@ from tests.support.board import DIGEST, HOSTILE, Tags, put, slow_walk, taken_in_
 from tests.support.forgeries import FORGERIES, GOLD_LATER, PRACTISED, WALKING, record, replay
 from tests.support.own_pack import PACK
 from tests.support.samples import WALK, WALK_END
+from tests.support.special_files import needs_special_files
 
 BROKEN = """
 Array.from(document.querySelectorAll(innerWidth > 704 ? "td, th" : "td")).filter((cell) => {
@@ -487,7 +488,9 @@ TRICKS: dict[str, tuple[Callable[[Path], object] | str, str]] = {
 }
 
 
-@pytest.mark.parametrize("trick", TRICKS)
+@pytest.mark.parametrize(
+    "trick", [pytest.param(trick, marks=needs_special_files) if trick == "a pipe" else trick for trick in TRICKS]
+)
 def test_a_trick_is_refused_with_its_reason(trick: str, runs: Path, levels: Path) -> None:
     make, words = TRICKS[trick]
     start = time.process_time()

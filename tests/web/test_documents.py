@@ -109,6 +109,13 @@ def test_a_chapter_shows_its_figure_its_answer_and_the_very_source(files: dict[s
     assert "return int(y / CELL) * STRIDE + int(x / CELL) + (STRIDE + 1)" in plain
 
 
+def test_an_example_with_its_results_looks_like_a_session_of_python(files: dict[str, bytes]) -> None:
+    page = files["docs/verification.html"].decode()
+    assert '<span class="gp">&gt;&gt;&gt; </span>' in page
+    assert '<span class="go">(0, 0, True)</span>\n</pre>' in page
+    assert "<blockquote>" not in page
+
+
 def test_every_figure_of_a_document_is_one_of_the_lab_and_has_a_still_picture(files: dict[str, bytes]) -> None:
     shown = {name for content in files.values() for name in re.findall(rb'data-figure="([\w-]+)"', content)}
     assert {name.decode() for name in shown} <= set(FIGURES)

@@ -15,7 +15,6 @@ import argparse
 import faulthandler
 import os
 import random
-import resource
 import shutil
 import signal
 import sys
@@ -115,6 +114,8 @@ class Trial:
 
     def summary(self) -> int:
         """Print what was seen; the exit code."""
+        import resource  # not on Windows
+
         for outcome, times in sorted(self.outcomes.items()):
             print(f"{times:9d}  {outcome}")
         for kind, times in self.wrong.items():
@@ -208,6 +209,8 @@ def options_of() -> argparse.Namespace:
 def main() -> int:
     """Fuzz, print what was found and a summary."""
     options = options_of()
+    import resource  # not on Windows
+
     faulthandler.enable()
     warnings.simplefilter("ignore")  # two files of one name in a zip are meant
     # A hang in compiled code shows where it is; one in ours is ended.

@@ -20,7 +20,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
-from pygments.lexers import PythonLexer, TextLexer
+from pygments.lexers import PythonConsoleLexer, PythonLexer, TextLexer
 
 from ninja_game.files.bundled import data_folder
 from ninja_game.play.lab.figure import figure_texts
@@ -335,8 +335,9 @@ def _highlighted(text: str, lang: str, about: str = "") -> str:
     ``about``: the rest of a fence's first line; "try" adds an element that figures.js makes a runnable program.
     """
     python = lang.split(" ", maxsplit=1)[0].endswith(("python", "py"))
+    lexer = PythonConsoleLexer if text.startswith(">>>") else PythonLexer if python else TextLexer
     shape = HtmlFormatter(cssclass="code", lineanchors="L" if "/" in lang else "")
-    shown = str(highlight(text, PythonLexer(stripnl=False) if python else TextLexer(stripnl=False), shape)).rstrip()
+    shown = str(highlight(text, lexer(stripnl=lexer is PythonConsoleLexer), shape)).rstrip()
     shown = re.sub(r'<a (id="L-\d+")[^>]*></a>', r"<span \1></span>", shown)
     buttons = [tag("button", words, type="button", hidden=True) for words in ("Run", "Edit")]
     after = tag("p", *buttons, class_="try") if about == "try" else ""

@@ -1,0 +1,9 @@
+"""Which tests need named pipes and devices: Windows has none."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+needs_special_files = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes and devices")
