@@ -97,14 +97,15 @@ def _object_counts(level: NamedLevel) -> Counter[str]:
     return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 
-def _said(level: NamedLevel) -> list[str]:
+def _message_lines(level: NamedLevel) -> list[str]:
     """The messages, each with its moment, as players with the default keys see them in their first try."""
     from ninja_game.files.bundled import asset_rows
-    from ninja_game.formats.messages import SEPARATOR, named_keys
+    from ninja_game.formats.messages import SEPARATOR, level_text
 
-    words = {action: keys.split()[0].capitalize() for action, _, _, keys, *_ in asset_rows("commands/game.txt") if keys}
-    words |= {"gold left": str(_kind_counts(level)["gold"]), "gold taken": "0", "deaths": "0"}
-    text = named_keys(level.says, words.__getitem__)
+    key_names = {
+        action: keys.split()[0].capitalize() for action, _, _, keys, *_ in asset_rows("commands/game.txt") if keys
+    }
+    text = level_text(level.says, key_names.__getitem__, 0, _kind_counts(level)["gold"], 0)
     return [part.strip().replace(r"\n", " ") for part in text.split(SEPARATOR)]
 
 
@@ -138,7 +139,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" if comment else ""))
     if level.teaches:
         console.print(Text(f"teaches: {shown_text(level.teaches)}"))
-    for line in _said(level) if level.says else ():
+    for line in _message_lines(level) if level.says else ():
         console.print(Text(f"says, {shown_text(line, len(line))}"))
     console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:

@@ -151,18 +151,18 @@ def _parse_message(part: str) -> LevelMessage:
         raise LevelError("too many lines in a text in 'says'", found=found, expected=f"at most {MAX_MESSAGE_LINES}")
     for name in unknown_words(text):
         raise LevelError("an unknown key in 'says'", found=f"{{{name[:40]}}}", expected=", ".join(WORDS))
-    important, said_when = when.endswith(IMPORTANT), when.removesuffix(IMPORTANT).rstrip()
-    timed = _TIME.fullmatch(said_when)
-    moment, seconds = (timed[1], float(timed[2])) if timed else (said_when, 0.0)
+    important, timed_moment = when.endswith(IMPORTANT), when.removesuffix(IMPORTANT).rstrip()
+    timed = _TIME.fullmatch(timed_moment)
+    moment, seconds = (timed[1], float(timed[2])) if timed else (timed_moment, 0.0)
+    message = LevelMessage(moment.split(" ")[0], text, seconds=seconds, important=important)
     if moment in _EVENTS:
-        return LevelMessage(moment, text, seconds=seconds, important=important)
+        return message._replace(when=moment)
     if match := _COUNTED.fullmatch(moment):
-        number = int(match[1]) if match[1] else float(match[2])
-        return LevelMessage(moment.split()[0], text, number, seconds=seconds, important=important)
+        return message._replace(number=int(match[1]) if match[1] else float(match[2]))
     if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[2]), int(match[3]))):
         size = (int(match[4]), int(match[5])) if match[4] else FRAME_SIZE
         if size[0] <= COLUMNS and size[1] <= ROWS and (match[1] == "at" or not match[4]):
-            return LevelMessage(match[1], text, cell=cell, seconds=seconds, size=size, important=important)
+            return message._replace(cell=cell, size=size)
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_MOMENTS)
 
 
@@ -173,3 +173,9 @@ def named_keys(text: str, name: Callable[[str], str]) -> str:
     'Z to the exit'
     """
     return _KEY.sub(lambda match: match[1] if match[1] in TARGETS else name(match[1]), text)
+
+
+def level_text(text: str, key: Callable[[str], str], gold: int, all_gold: int, deaths: int) -> str:
+    """A level's text with the names of keys, and with its numbers as they are now."""
+    counts = {"gold left": all_gold - gold, "gold taken": gold, "deaths": deaths}
+    return named_keys(text, lambda word: str(counts[word]) if word in counts else key(word))

@@ -40,6 +40,7 @@ from ninja_game.formats.messages import (
     WORDS,
     LevelMessage,
     arrow_targets,
+    level_text,
     parse_messages,
 )
 from ninja_game.levels.episodes import Mood
@@ -47,7 +48,7 @@ from ninja_game.levels.findings import Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.editor.sheet import said_at, things_of
-from ninja_game.play.level.hud_view import level_text, named_in
+from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
 from ninja_game.runs.messages import Heard, heard, late_text, shown_ticks
@@ -548,8 +549,10 @@ class MessagesScreen(MenuScreen):
 
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
         parsed, moment = self._parsed(message), self._heard(message)
-        spot = None if parsed else self._eye(message)
-        spot = moment.spot if moment and message.when != "start" else spot
+        if moment and message.when != "start":
+            spot: Point | None = moment.spot
+        else:
+            spot = None if parsed else self._eye(message)
         place = parsed and parsed.place
         layout = self._draft.level.tiles, self._things(stage), place, spot
         return placed_message(text, *layout, of_start=message.when == "start") if text else None

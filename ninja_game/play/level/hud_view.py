@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from math import hypot
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.messages import named_keys
+from ninja_game.formats.messages import level_text
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
@@ -85,12 +85,6 @@ def hud_view(play: LevelPlay) -> HudView:
         softly=not settings.reduced_motion,
         message_opacity=1.0 if settings.reduced_motion else play.messages.opacity,
     )
-
-
-def level_text(text: str, key: KeyName, gold: int, all_gold: int, deaths: int) -> str:
-    """A level's text with the names of keys, and with its numbers as they are now."""
-    counts = {"gold left": all_gold - gold, "gold taken": gold, "deaths": deaths}
-    return named_keys(text, lambda word: str(counts[word]) if word in counts else key(word))
 
 
 def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
