@@ -91,6 +91,7 @@ class EditorTools:
         self._copies = False
         self._chosen_before = stamps.Selection()
         self._previewed: tuple[tuple[object, ...], Tiles] = ((), {})
+        self._filling: tuple[tuple[object, ...], tuple[ObjectSpec, ...]] = ((), ())
         #: Gets an object that something else than ``cancel`` takes away, since it has no switch yet
         self.gave_up: Callable[[ObjectSpec], object] = lambda _: None
 
@@ -295,10 +296,17 @@ class EditorTools:
 
     @property
     def next_objects(self) -> tuple[ObjectSpec, ...]:
-        """The objects that a press places, or a fill, without their images of a symmetry."""
+        """The objects that a press places, or a fill, without their images of a symmetry.
+
+        Those of a fill are kept while the pointer stays in its cell.
+        """
         if self.effective_tool != "fill":
             return (self.placed(*self.pointer),)
-        return tuple(self.placed(*middle_of(cell), "cell") for cell in stamps.filled(self.draft, self.cell))
+        key = self.draft, self.cell, self.spec, self.nearest
+        if key != self._filling[0]:
+            cells = stamps.filled(self.draft, self.cell)
+            self._filling = key, tuple(self.placed(*middle_of(cell), "cell") for cell in cells)
+        return self._filling[1]
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
         if not self.draws_objects:
