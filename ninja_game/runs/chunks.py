@@ -166,8 +166,12 @@ def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result
             raise ValueError(f"{len(all_results)} answers to {len(chunks)} questions")
         for chunk, results in zip(chunks, all_results, strict=True):
             # A text that was found in a folder may hold only levels.
-            expected_count = 1 if chunk.problem else len(chunk.records) or int(chunk.named)
-            expected_count *= not chunk.done
+            if chunk.done:
+                expected_count = 0
+            elif chunk.problem:
+                expected_count = 1
+            else:
+                expected_count = len(chunk.records) or int(chunk.named)
             if len(results) != expected_count and (chunk.records or len(results) < expected_count):
                 raise ValueError(f"{len(results)} results of {expected_count}")
         return all_results

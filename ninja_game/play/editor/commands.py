@@ -150,17 +150,22 @@ class EditorCommands(DocumentCommands):
 
     def undo(self) -> None:
         before, tools = self.session.draft, self.session.tools
-        self._tell_step("Undone" if tools.undo() else "Nothing to undo", tools.draft, before)
+        is_done = tools.undo()
+        self._tell_step("Undone" if is_done else "Nothing to undo", tools.draft, before, always=not is_done)
 
     def redo(self) -> None:
         before, tools = self.session.draft, self.session.tools
-        self._tell_step("Redone" if tools.redo() else "Nothing to redo", before, tools.draft)
+        is_done = tools.redo()
+        self._tell_step("Redone" if is_done else "Nothing to redo", before, tools.draft, always=not is_done)
 
-    def _tell_step(self, done: str, before: Draft, after: Draft) -> None:
-        """Say which change from one draft to the other was undone or redone, and whether the file has the result."""
+    def _tell_step(self, done: str, before: Draft, after: Draft, *, always: bool) -> None:
+        """Say which change from one draft to the other was undone or redone, and whether the file has the result.
+
+        ``always``: even if nothing has changed.
+        """
         saved = self.session.source.path and self.session.is_saved
         text = change_text(before, after)
-        if text or done.startswith("Nothing"):
+        if text or always:
             self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
 
     def stamps(self) -> None:

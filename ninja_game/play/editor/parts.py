@@ -453,8 +453,8 @@ class Findings(EditorPart):
         if self._gone_to != self.view.finding:
             self._gone_to = self.view.finding
             rows = [row for row, (number, _) in enumerate(self._lines) if number == self._gone_to]
-            for self.list.index in reversed(rows):
-                self.list.fill(self._lines)
+            for row in reversed(rows):
+                self.list.select(row)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         number, line = self._lines[index]
