@@ -93,15 +93,13 @@ def judge(
     memo, players = memo or Memo(), Players()
     judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
     counts, rejected = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
-    added, later = (of_run or (lambda *_: "") for of_run in (dates, taken))
-    runs = [replace(run, added=added(run.key, run.way), taken=later(run.key, run.way)) for run in counts]
+    runs = [_dated(run, dates, taken) for run in counts]
     if decide:
         decide(runs, {run.file for run in runs} | {item.file for item in rejected})
     owners = ledger.owners
     runs, impossible = _parted(_possible(run, ledger, unknown) for run in runs)
     runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
-    assigned = (replace(run.marked(mark), player=name) for run in runs for name, mark in [players.meet(run.player)])
-    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in assigned)
+    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(runs, players))
     unique, copies = without_copies(credited, memo, owners)
     unique = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
     counted = tuple(_of_senders(unique, ledger, confirm))
@@ -115,6 +113,12 @@ def _parted(items: Iterable[Run | Rejected]) -> tuple[list[Run], list[Rejected]]
     """The runs, and the others."""
     items = [*items]
     return [run for run in items if isinstance(run, Run)], [item for item in items if isinstance(item, Rejected)]
+
+
+def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
+    """The run with the dates that the ledger has of it."""
+    added, later = (of_run(run.key, run.way) if of_run else "" for of_run in (dates, taken))
+    return replace(run, added=added, taken=later)
 
 
 def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | Rejected:
@@ -137,6 +141,13 @@ def _first_again(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
             yield replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
         else:
             yield run
+
+
+def _of_players(runs: Iterable[Run], players: Players) -> Iterator[Run]:
+    """The runs, each assigned to its author's player."""
+    for run in runs:
+        player, mark = players.meet(run.player)
+        yield replace(run.marked(mark), player=player)
 
 
 def _named(item: Rejected, players: Players) -> Rejected:

@@ -80,9 +80,13 @@ class Page {
     addEventListener("pagehide", () => this.saveAll());
     addEventListener("blur", () => this.touch.release());
     addEventListener("hashchange", () => this.openLink().catch(failed));
-    addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.writing || (!this.stopped && this.folder.unsaved)) && event.preventDefault());
+    addEventListener("beforeunload", (event) => this.leavingLoses && event.preventDefault());
     new ResizeObserver(() => this.host.resize()).observe(canvas);
     addEventListener("pointermove", () => this.stirred(), { passive: true });
+  }
+
+  get leavingLoses() {
+    return this.state === "play" || this.folder.writing || (!this.stopped && this.folder.unsaved);
   }
 
   // The pointer and the page's button show themselves while the mouse moves.

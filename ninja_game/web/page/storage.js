@@ -40,7 +40,9 @@ export class PlayerFolder {
 
   // A text that changes with every change of a file.
   state() {
-    let [count, newest, bytes] = [0, 0, 0];
+    let count = 0;
+    let newest = 0;
+    let bytes = 0;
     const walk = (node) => {
       count += 1;
       newest = Math.max(newest, +node.mtime);
