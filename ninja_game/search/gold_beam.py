@@ -56,7 +56,7 @@ HOPE = 1.1  # a pass ends where the estimated ticks exceed those of the best run
 @kernel
 def play_on(start: Start, keys: int) -> None:
     w = start.worlds[1]
-    step(start.levels[0], w, with_press_bit(keys & KEYS_DOWN, w.ninja.jump_held))
+    step(start.maps[0], w, with_press_bit(keys & KEYS_DOWN, w.ninja.jump_held))
 
 
 class GoldBeam:

@@ -48,16 +48,16 @@ Blocks = NDArray[np.uint8]
 
 
 @kernel
-def free_points(levels: Any, costs: Costs) -> None:
+def free_points(maps: Any, costs: Costs) -> None:
     """Set the cost factor of every point: 1 if the ninja fits among the tiles, 0 if not."""
-    level = levels[0]
+    tiles = maps[0]
     for point in range(POINTS):
         x = _SPACING * (point % ACROSS)
         y = _SPACING * (point // ACROSS)
-        free = not solid_at(level, x, y)
+        free = not solid_at(tiles, x, y)
         if free:
             for k in range(12):
-                if solid_at(level, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):
+                if solid_at(tiles, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):
                     free = False
                     break
         costs[point] = 1.0 if free else 0.0
@@ -168,14 +168,14 @@ class Switchable(NamedTuple):
 class Heuristics:
     """Distance fields of one level, by switch state.
 
-    ``levels``: the level as kernels take it; ``worlds``: a new world in it, as a record.
+    ``maps``: the level as kernels take it; ``worlds``: a new world in it, as a record.
     """
 
-    def __init__(self, levels: Any, worlds: WorldArray) -> None:
+    def __init__(self, maps: Any, worlds: WorldArray) -> None:
         used = int(worlds["slots_used"][0])
         objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
-        compiled_if_possible(free_points)(levels, self.costs)
+        compiled_if_possible(free_points)(maps, self.costs)
         self.blocked = np.zeros(POINTS, np.uint8)
         self._queue = np.zeros(POINTS + 1, np.int32)
         self._waiting = np.zeros(POINTS, np.uint8)

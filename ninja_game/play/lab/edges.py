@@ -77,10 +77,10 @@ class EdgeStates(Figure):
 
     def numbers(self) -> list[tuple[str, str]]:
         column, row = tiles.COLUMN[self.cell], tiles.ROW[self.cell]
-        tile = self.tiles.tiles[self.cell]
+        tile = self.tiles.ids[self.cell]
         neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
         face = tiles.FACE[4 * tile + self.side]
-        other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
+        other = tiles.FACE[4 * self.tiles.ids[neighbour] + (self.side ^ 2)]
         states = [
             self.world.edges[4 * cell + side]
             for cell in range(len(tiles.EXISTS))

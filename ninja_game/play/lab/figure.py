@@ -152,8 +152,8 @@ class Sheet:
                 self.surface, (ink.r, ink.g, ink.b, alpha), CENTRE_X[cell] - HALF, CENTRE_Y[cell] - HALF, CELL, CELL
             )
 
-    def tiles(self, level: TileMap) -> None:
-        for cell, tile in enumerate(level.tiles):
+    def tiles(self, tiles: TileMap) -> None:
+        for cell, tile in enumerate(tiles.ids):
             x, y = CENTRE_X[cell], CENTRE_Y[cell]
             seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
             if seen and EXISTS[cell] and (corners := [(x + dx, y + dy) for dx, dy in outline(tile)]):
