@@ -393,8 +393,8 @@ class SearchTab(Tab):
             theme.text(
                 surface, cell, at, y + 3, size=SMALL, width=width, colour=palette.text if fits else palette.faint
             )
-        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
-                   colour=palette.faint if not fits else palette.bad if gain == "a miss" else palette.good)  # fmt: skip
+        colour = palette.faint if not fits else palette.good if result.missed_by is None else palette.bad
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, colour=colour, bold=fits, align="right", width=78)
 
     def _draw_piece(self, surface: pygame.Surface, theme: Theme, piece: RunPiece, area: Area) -> None:
         x, y, w, _ = area

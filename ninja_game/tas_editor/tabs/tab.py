@@ -109,8 +109,10 @@ class TabStrip(TasPart):
         return False
 
     def commands(self) -> Commands:
-        names = [tab.name for tab in self.tabs]
-        return {"next_tab": lambda: setattr(self.editor, "tab", next_option(names, self.editor.tab))}
+        return {"next_tab": self._show_next}
+
+    def _show_next(self) -> None:
+        self.editor.tab = next_option([tab.name for tab in self.tabs], self.editor.tab)
 
     @property
     def shown(self) -> Tab:

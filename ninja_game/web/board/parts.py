@@ -106,13 +106,13 @@ class Parts:
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
-    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch", colours: Sequence[int] = ()) -> Markup:
+    def watch_link(self, runs: Sequence[Run], up: str, text: str = "", colours: Sequence[int] = ()) -> Markup:
         """A link that watches a run, the others as ghosts; ``colours``: of all, by number, if not in their order."""
         marks = [f"-{number}" for number in colours] or [""] * len(runs)
         stems = (self.stems[run.key] + mark for run, mark in zip(runs, marks, strict=True))
         address = watch_address(up + self.game, *stems)
-        label = f"{text}: {runs[0].player} on {runs[0].entry.title}"
-        return tag("a", text, href=address, aria_label=label, class_="watch" if text == "Watch" else None)
+        label = f"{text or 'Watch'}: {runs[0].player} on {runs[0].entry.title}"
+        return tag("a", text or "Watch", href=address, aria_label=label, class_=None if text else "watch")
 
     def waiting_link(self, runs: Iterable[Run]) -> Content:
         """A link from a deeper page to what waits, with the number of these runs that do; None for none."""
