@@ -27,7 +27,7 @@ from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
-from ninja_game.player.playthrough import EpisodePlaythrough, next_run
+from ninja_game.player.episode_playthrough import EpisodePlaythrough, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Point
 from ninja_game.simulation import Simulation

@@ -16,8 +16,8 @@ from ninja_game.play.level.level_play import STAMP_TICKS
 from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
-from ninja_game.player.playthrough import EpisodePlaythrough
 from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
 from ninja_game.sim.rules import TICK_MS

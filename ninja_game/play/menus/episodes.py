@@ -17,8 +17,8 @@ from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.problems import file_problems, problems_button
 from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
+from ninja_game.player.episode_playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
 from ninja_game.runtime import in_page_or_not
 from ninja_game.ui.input.bindings import InputEvent
