@@ -59,6 +59,7 @@ class Parts:
 
     def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
         self.pages, self.ranking = Pages(out, BOARD, memo), ranking
+        self.main = ranking.categories[0]
         self.game = f"../{GAME_PAGE}"
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
@@ -167,6 +168,31 @@ class Parts:
         values = self.ranking.values(category, run)
         return category.text(values[0]) if values else ""
 
+    def placed(self, digest: str, ladder: str) -> list[Ranked]:
+        """The runs with a place in the first category of a ladder, except those far behind."""
+        rows = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
+        return [row for row in rows if row.place and not row.is_far]
+
+    def counts_of(self, digest: str) -> str:
+        """The numbers of a level's runs and players, over all ladders and categories."""
+        runs = self.ranking.by_level.get(digest, [])
+        players = {run.player for run in runs}
+        return f"{counted(len(runs), 'run')} by {counted(len(players), 'player')}" if runs else "no run yet"
+
+    def best_results(self, digest: str) -> list[Content]:
+        """The best number and its player in the first category of each ladder with runs."""
+        firsts: list[Content] = []
+        for ladder in self.ranking.ladders:
+            if first := next(iter(self.placed(digest, ladder)), None):
+                name = ladder.capitalize() if len(self.ranking.ladders) > 1 else self.main.name
+                result = tag("b", self.main.measured(first.values[0]))
+                firsts.append(joined(tag("span", name), " ", result, " ", self.player_link(first.run.player)))
+        return firsts
+
+    def of_both(self) -> str:
+        """A caption's addition if there are two ladders."""
+        return "; runs and players are those of both ladders" if len(self.ranking.ladders) > 1 else ""
+
 
 def player_page(player: str) -> str:
     """The file of a player's page, without its ending: an untrusted name never becomes a path."""
@@ -195,6 +221,11 @@ def made_text(run: Run) -> Markup:
     if len(run.made) <= LONG_CELL:
         return tag("span", run.made or "unknown", class_="made")
     return tag("details", tag("summary", "Assisted" if run.assisted else "Played"), run.made, class_="note made")
+
+
+def stack(*lines: Content) -> Markup:
+    """Lines in one cell of a table, without empty ones."""
+    return tag("div", *(tag("div", line) for line in lines if line), class_="stack")
 
 
 def _stem(run: Run) -> str:
