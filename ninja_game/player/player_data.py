@@ -73,7 +73,8 @@ class PlayerData:
 
     def newcomer(self) -> PlayerData:
         """Data of a new player without a name, with the same levels; results are not saved."""
-        store, settings = Store(None, "this is a preview"), self.settings.changed(name="")
+        store = Store(None, "this is a preview")
+        settings = self.settings.changed(name="")
         other = PlayerData(self.folder, store=store, catalogue=self.catalogue, settings=settings)
         other._is_maker = False
         return other

@@ -203,7 +203,8 @@ class LevelPlaythrough(Playthrough):
         Simulation(named.level, body=self.body)
         changed = named.level != before
         pars = None if changed else self.entry.pars
-        self._levels, self.entry = levels, replace(self.entry, named=named, pars=pars)
+        self._levels = levels
+        self.entry = replace(self.entry, named=named, pars=pars)
         return changed
 
     @property

@@ -160,7 +160,8 @@ class EpisodePassed(ThumbnailScreen):
             shine = (self.ticks - self._marks_end - STAMP_TICKS) / SHINE_TICKS
             draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, _MIDDLE, _PRIZE, stamp, shine)
         best = self._best
-        note, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
+        note = ""
+        news = [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
         if not run.whole:
             note = "A level was skipped or passed with help: this does not count as a record"
             note = "Practice counts for no record" if run.practice_mode else note

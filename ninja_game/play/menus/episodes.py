@@ -294,7 +294,8 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _draw_preview(self, surface: pygame.Surface, theme: Theme) -> None:
         """The pack as its maker presents it: name, author, comment, picture."""
-        faint, index = theme.palette.faint, self.pack.pack.index if self.pack.pack else None
+        faint = theme.palette.faint
+        index = self.pack.pack.index if self.pack.pack else None
         name, by = (index.name, index.byline) if index else (self.pack.name, "")
         theme.text(surface, shown_text(name), _LEFT, 58, size=20, bold=True, width=_WIDE)
         theme.text(surface, shown_text(by), _LEFT, 84, size=11, width=_WIDE)

@@ -98,7 +98,8 @@ class TabStrip(TasPart):
             for tab in tabs
         ]
         for name in OVERLAY_ACTIONS:
-            key, toggle = key_text(TAS_COMMANDS.by_name[name]), partial(overlays.toggle, name)
+            key = key_text(TAS_COMMANDS.by_name[name])
+            toggle = partial(overlays.toggle, name)
             self.widgets.append(LitButton(key, toggle, partial(self._is_on, name), TAS_COMMANDS.hint(name)))
 
     def _is_on(self, name: str) -> bool:

@@ -46,7 +46,8 @@ class FirstPage:
         self.players = players
 
     def page(self) -> str:
-        newest, rows = list[Markup](), list[tuple[Content, ...]]()
+        newest = list[Markup]()
+        rows = list[tuple[Content, ...]]()
         for records in self._moments():
             if len(rows) >= NEWEST:
                 break
@@ -167,7 +168,8 @@ class FirstPage:
 
     def feed(self) -> str:
         """New records as Atom (RFC 4287); dates are those of the ledger."""
-        news, name = list(islice(self._news(), NEWEST)), self.ranking.shown.name
+        news = list(islice(self._news(), NEWEST))
+        name = self.ranking.shown.name
         feed = ET.Element("feed", xmlns="http://www.w3.org/2005/Atom")
         _about(feed, f"New records: {self.ranking.name or name}", name, news[0][2] if news else "")
         ET.SubElement(feed, "link", rel="self", href=FEED)

@@ -116,7 +116,9 @@ class BoardPages:
         return sections
 
     def _rejected(self) -> None:
-        parts, rejected, order = self.parts, self.ranking.judged.rejected, list(REJECTED_KINDS)
+        parts = self.parts
+        rejected = self.ranking.judged.rejected
+        order = list(REJECTED_KINDS)
         by_kind = Counter(item.kind for item in rejected)
         kinds = ", ".join(
             f"{title.lower()}: {by_kind[kind]}" for kind, (_, title, _) in REJECTED_KINDS.items() if by_kind[kind]
@@ -155,7 +157,8 @@ class BoardPages:
         parts.write_table("rejected", "Rejected", "What does not count", heads, rows, *leads)
         if near:
             names = "Watch", "Run", "Why"
-            about, caption = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM)), "Runs without a place"
+            about = (tag("p", NEAR), tag("p", HOW_TO_CONFIRM))
+            caption = "Runs without a place"
             parts.write_table("waiting", "Waiting for confirmation", caption, names, near, *about)
 
     def _decide(self, run: Run, other: Run | None) -> Iterator[Content]:

@@ -122,7 +122,8 @@ class Parts:
 
     def run_link(self, run: Run, up: str, text: str = "") -> Markup:
         """A link to the page of a run with the text ``text``, such as its time; by default to its replay."""
-        address, label = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
+        address = f"{up}../{REPLAYS}/{self.stems[run.key]}"
+        label = f"{run.player} on {run.entry.title}"
         if text:
             return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {label}")
         return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {label}")
@@ -153,14 +154,16 @@ class Parts:
 
         ``timed``: with its medal, which is for the time; ``mark``: before the player's name.
         """
-        gold, medal = f"{run.gold} of {run.entry.all_gold}", medal_mark(run.medal if timed else "")
+        gold = f"{run.gold} of {run.entry.all_gold}"
+        medal = medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
         others = (
             tag("span", f" with {shown_text(run.co_authors, _MAX_NAME)}", class_="with") if run.co_authors else None
         )
         summary = tag("summary", "Waits" if run.waits else "Remark")
         note = tag("details", summary, run.remark, class_="note") if run.remark else None
-        player, linked = self.player_link(run.player, UP), self.run_link(run, UP, str(results[0]))
+        player = self.player_link(run.player, UP)
+        linked = self.run_link(run, UP, str(results[0]))
         return joined(mark, player, others, note), linked, *results[1:], self.watch_link([run], UP), *about
 
     def shown_value(self, category: Category, run: Run) -> str:
