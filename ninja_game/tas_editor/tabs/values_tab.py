@@ -323,8 +323,8 @@ class ValuesTab(Tab):
         x, y, w, h = self._plot
         lanes = [watched for watched in self.watched if watched.plotted]
         if not lanes:
-            theme.text(surface, "Click a value to see its plot", x + w / 2, y + h / 2, size=SMALL, align="centre",
-                       colour=theme.palette.faint, width=w)  # fmt: skip
+            hint, faint = "Click a value to see its plot", theme.palette.faint
+            theme.text(surface, hint, x + w / 2, y + h / 2, size=SMALL, colour=faint, align="centre", width=w)
         for k, watched in enumerate(lanes):
             lane = (x, y + h * k / len(lanes), w, h / len(lanes) - 3)
             draw_lane(surface, theme, lane, self.window, watched.values, plot_colour(watched.number, theme.palette))
