@@ -156,13 +156,13 @@ class Switchable(NamedTuple):
     """An exit (``door`` is False) or a locked or trap door, with its switch and the points that it blocks."""
 
     slot: int
-    door: bool
-    trap: bool  #: whether it is a trap door
     x: float  #: px, as all places
     y: float
     switch_x: float
     switch_y: float
-    bars: tuple[int, ...]  #: indices of the blocked points
+    bars: tuple[int, ...] = ()  #: indices of the blocked points
+    door: bool = False
+    trap: bool = False  #: whether it is a trap door
 
 
 class Heuristics:
@@ -186,10 +186,10 @@ class Heuristics:
             x, y = float(record["x"]), float(record["y"])
             if kind == kinds.EXIT:
                 switch = objects[int(record["partner"])]
-                exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
+                exits.append(Switchable(slot, x, y, float(switch["x"]), float(switch["y"])))
             elif kind == kinds.DOOR and int(record["mechanism"]) != AUTOMATIC:
                 trap = int(record["mechanism"]) != LOCKED
-                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(record["edge_1"]))))
+                doors.append(Switchable(slot, x, y, x, y, _bars(int(record["edge_1"])), door=True, trap=trap))
             elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
             elif kind == kinds.MINE:

@@ -120,7 +120,8 @@ class Sheet:
     def __init__(self, surface: pygame.Surface, theme: Theme, view: View) -> None:
         self.surface = surface
         self.view = view
-        (x, y), scale = theme.canvas.exact(FIGURE[0], FIGURE[1]), theme.canvas.scale * view.zoom
+        x, y = theme.canvas.exact(FIGURE[0], FIGURE[1])
+        scale = theme.canvas.scale * view.zoom
         corner = round(x - view.left * scale), round(y - view.top * scale)
         self.canvas = Lens(theme.canvas.window, scale, corner)
         self.theme = theme

@@ -308,7 +308,9 @@ class PackDesk(ThumbnailScreen):
                 self.drop(self.shelves.cells[index], after=self._is_after(index))
             elif self.tray.contains(x, y):
                 self.drop(None)
-            self.moving, self.pointer = (self.moving if self.pointer is None else None), None
+            if self.pointer is not None:
+                self.moving = None
+            self.pointer = None
             self.redraw = True
 
     def leave(self) -> None:
@@ -318,7 +320,8 @@ class PackDesk(ThumbnailScreen):
             self.packer.drop_notices()
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
-        landing, level = self._landing(), self.moving.level if self.moving else None
+        landing = self._landing()
+        level = self.moving.level if self.moving else None
         lifted = self.levels_with(level) if level and self.pointer else []
         self.shelves.lifted = self.tray.lifted = {level.named.file for level in lifted}
         self.shelves.gap = landing[0] + landing[1] if landing and self.pointer else 0

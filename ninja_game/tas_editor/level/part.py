@@ -22,9 +22,9 @@ from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.other_runs import OtherRuns
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
-from ninja_game.tas_editor.tabs.values_tab import colour_of, proposal
+from ninja_game.tas_editor.tabs.values_tab import proposal
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.theme import Theme
+from ninja_game.ui.theme import Theme, plot_colour
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0  # px of the level within which the mouse points at an object
@@ -209,7 +209,7 @@ class LevelPart(TasPart):
             self.picture.follow([])
             return []
         palette = self.editor.theme.palette
-        runs = [(run, colour_of(number, palette)) for number, run in enumerate(editor.others)]
+        runs = [(run, plot_colour(number, palette)) for number, run in enumerate(editor.others)]
         if editor.preview is not None:
             runs.append((editor.preview, palette.exit))
         before = editor.session.before

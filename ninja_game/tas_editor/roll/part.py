@@ -86,7 +86,9 @@ class Roll(TasPart):
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        layout, other, palette = self.layout, compared_run(self.editor), theme.palette
+        layout = self.layout
+        other = compared_run(self.editor)
+        palette = theme.palette
         mark = other.colour(palette) if other else palette.ghost
         sheet = self._sheet
         if sheet is None or sheet.theme is not theme or sheet.layout != layout or sheet.mark != mark:
