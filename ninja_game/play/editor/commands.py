@@ -218,7 +218,7 @@ class EditorCommands(DocumentCommands):
         prompt, load = "Name of the stamp", self._load
         ask_text(self.app, "Keep as a stamp", prompt, "", "Keep", lambda name: load(partial(keep, name)), 40)
 
-    def choose(self, name: str, button: Area) -> None:
+    def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
         if name in (steps := self._steps()):
             actions, now = steps[name]

@@ -11,9 +11,12 @@ from ninja_game.editor.files import Source
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
+from ninja_game.play.editor.bars import StatusLine, Toolbar
 from ninja_game.play.editor.commands import EDITOR_COMMANDS, EditorCommands
+from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.palette_view import PaletteView, entry_of_key, live_changes
-from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
+from ninja_game.play.editor.panels import FilePart, Findings, PalettePart
+from ninja_game.play.editor.properties import Properties
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menu_screen import DIRECTIONS

@@ -29,9 +29,13 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
+from ninja_game.play.editor.bars import StatusLine, Toolbar
 from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
 from ninja_game.play.editor.messages import MessagesScreen
-from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine, Toolbar, ToolButton
+from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.panels import Findings
+from ninja_game.play.editor.part import ToolButton
+from ninja_game.play.editor.properties import FIRST_STEPS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import GRIDS, sign_mark
 from ninja_game.play.editor.stamp_menu import StampMenu

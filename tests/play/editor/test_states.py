@@ -16,7 +16,8 @@ from ninja_game.editor.solver import Certification, search_of
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
 from ninja_game.play.editor.commands import IN_MORE, TryScreen
-from ninja_game.play.editor.parts import FilePart, ObjectList
+from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.panels import FilePart
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import Menu
 from ninja_game.ui.widgets import Button
