@@ -23,9 +23,12 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-LOADING, COMPILING = "Loading the solver", "Compiling the solver, the first time on a machine a minute or more"
-
 SECONDS = 20.0  # how long the solver looks for better runs
+
+
+def preparing_text(*, compiles: bool) -> str:
+    """What happens before the first search."""
+    return "Compiling the solver, the first time on a machine a minute or more" if compiles else "Loading the solver"
 
 
 @dataclass(eq=False)
@@ -137,8 +140,8 @@ class Certifier:
         if certification.end or certification.level is None:
             return certification.end
         if certification.progress is None:
-            why = COMPILING if self.solver.compiles else LOADING
-            why = why if self.is_compiling else "Another level's search comes first"
+            preparing = preparing_text(compiles=self.solver.compiles)
+            why = preparing if self.is_compiling else "Another level's search comes first"
             waited = self.waited if self.is_compiling else f"{self.waited} in the queue"
             return f"{why}: {waited}. Go on editing, or save and leave"
         ticks = certification.progress.ticks
