@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft, change_text
+from ninja_game.editor.examination import UNREACHABLE_CODES
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
@@ -27,7 +28,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.session import UNREACHABLE_CODES, EditorSession
+from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.stamp_menu import StampMenu
 from ninja_game.play.editor.view import DOUBLE, EditorView
@@ -244,7 +245,7 @@ class EditorCommands(DocumentCommands):
 
     def switch_tests(self) -> None:
         """Show or hide the paths and deaths of all tests of the level as it is."""
-        view, count = self.view, len(self.session.tries)
+        view, count = self.view, len(self.session.playtests.shown)
         view.tests = not view.tests
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         if not count:
@@ -253,8 +254,8 @@ class EditorCommands(DocumentCommands):
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
-        self.session.next_start()
-        asks = self.session.start != "off" and not self.view.hovering
+        self.session.at_pointer.next_start()
+        asks = self.session.at_pointer.start != "off" and not self.view.hovering
         self.view.hint = "Point at a place in the level: it is shown what the ninja reaches from there" if asks else ""
 
     def go_to_finding(self, index: int) -> None:
@@ -311,7 +312,11 @@ class EditorCommands(DocumentCommands):
             self.test(None, says, (b"", int(message.number) if message else 0))
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
-        runs = [session.certifying_inputs, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
+        runs = [
+            session.certifying_inputs,
+            *(run.inputs for run in session.playtests.shown[-1:] if run.level == level),
+            waits,
+        ]
         with suppress(LevelError):  # without a ninja, which the test reports
             moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
@@ -415,7 +420,7 @@ class EditorCommands(DocumentCommands):
         saved, path = session.is_saved, session.source.path
 
         def follow() -> None:
-            source = session.changed_source()
+            source = session.edited.changed_source()
             if source is None:
                 return
             if saved:
@@ -537,7 +542,7 @@ class TryContext(Playthrough):
         self._session, (self.lead, self.deaths) = session, begun
 
     def _tried(self, attempt: Attempt, *, over: bool) -> None:
-        self._session.tried(self.level, bytes(attempt.inputs), over=over)
+        self._session.add_playtest(self.level, bytes(attempt.inputs), over=over)
 
     def beginning(self) -> tuple[Level, bytes]:
         """The start of the level under edit, wherever the test begins: its texts lie where they will lie in play."""

@@ -67,10 +67,10 @@ class Findings(EditorPart):
         return tuple(self._lines), self.list.first
 
     def update(self, real_ms: int) -> None:
-        if self._shown is not self.session.findings:
-            self._shown, theme = self.session.findings, self.view.app.theme
+        if self._shown is not self.session.examination.findings:
+            self._shown, theme = self.session.examination.findings, self.view.app.theme
             width = self.area[2] - 32
-            accepted = self.session.accepted
+            accepted = self.session.edited.accepted
             texts = [
                 f"{odd.sentence}. Accepted: {accepted[odd.code]}" if odd.code in accepted else odd.advice
                 for odd in self._shown
@@ -86,7 +86,7 @@ class Findings(EditorPart):
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         number, line = self._lines[index]
         x, y, w, _ = area
-        accepted = self._shown[number].code in self.session.accepted
+        accepted = self._shown[number].code in self.session.edited.accepted
         if not accepted and (index == 0 or self._lines[index - 1][0] != number):
             theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
         colour = theme.palette.faint if accepted else theme.palette.text

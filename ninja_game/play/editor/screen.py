@@ -86,7 +86,7 @@ class EditorScreen(WorkspaceScreen):
     def leave(self) -> None:
         super().leave()
         self.session.certify_file()
-        self.session.autosave.flush(self.session.tools.history, self.session.source)
+        self.session.edited.autosave.flush(self.session.tools.history, self.session.source)
 
     def capture(self, event: InputEvent) -> bool:
         """Enter ends what is typed, too."""

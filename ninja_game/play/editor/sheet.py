@@ -14,7 +14,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.draft import Draft, changed_cells
-from ninja_game.editor.playtests import PathPoints, TestMap
+from ninja_game.editor.playtests import PathPoints, PlaytestMap
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, has_switch, object_type_name, points
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.levels.findings import Finding
@@ -342,7 +342,7 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], messages: Sequence[Point],
+    routes: Sequence[tuple[PathPoints, Colour]], tests: PlaytestMap, signs: Sequence[Point], messages: Sequence[Point],
     axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by their contents: equal keys, equal marks. Those of ``before`` are used again."""

@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.playtests import PathPoints, TestMap
+from ninja_game.editor.playtests import PathPoints, PlaytestMap
 from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, object_type_name, points
 from ninja_game.editor.stamp import Stamp, area_around, area_between, nearest_part
@@ -387,7 +387,7 @@ class EditorView(Pane):
             tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
             tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
             tools.marquee, tools.placing_switch, tools.draft, self.message,
-            self.session.reach and self.session.reach[1:],
+            self.session.at_pointer.reach and self.session.at_pointer.reach[1:],
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
@@ -407,39 +407,38 @@ class EditorView(Pane):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        reach = self.session.reach if self.hovering else None
+        reach = self.session.at_pointer.reach if self.hovering else None
         spot = next((at for at, number in message_places(tools.draft).items() if number == self.message), None)
         return [*changed, *self.overlay.draw(surface, tools, reach, spot, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
-        session, palette = self.session, self.app.theme.palette
-        certifier = session.certifier
-        stale = certifier.is_stale(session.draft.level)
+        session, palette, draft = self.session, self.app.theme.palette, self.session.draft
+        certification, stale = session.certifier.certification, session.certifier.is_stale(draft.level)
+        playtests, examination, drone_round = session.playtests, session.examination, session.at_pointer.drone_round
         state = (
-            session.draft.objects, self.lines, self.paths, session.last_try, certifier.certification.route, stale,
-            session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
-            session.last_death, session.drone_round,
+            draft.objects, self.lines, self.paths, playtests.last_route, certification.route, stale,
+            examination.findings, session.tools.symmetry, draft.says, self.tests and playtests.map,
+            playtests.last_deaths, drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
-        open_findings = [finding for finding in session.findings if finding.code not in session.accepted]
-        signs = [
-            p for finding in open_findings for p in finding_points(session.examined or session.draft.level, finding)
-        ]
-        routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
-        routes.append((certifier.certification.route, palette.faint if stale else palette.good))
-        routes.append((session.drone_round, palette.bad))
+        open_findings = [finding for finding in examination.findings if finding.code not in session.edited.accepted]
+        level = examination.level or draft.level
+        signs = [place for finding in open_findings for place in finding_points(level, finding)]
+        routes: list[tuple[PathPoints, Colour]] = [(playtests.last_route, palette.ghost)]
+        routes.append((certification.route, palette.faint if stale else palette.good))
+        routes.append((drone_round, palette.bad))
         marks = level_marks(
             self.sheet.flat,
             palette,
-            session.draft,
+            draft,
             self.sheet.marks,
             lines=self.lines,
             signs=list(dict.fromkeys(signs)),
-            messages=list(message_places(session.draft)),
+            messages=list(message_places(draft)),
             routes=routes if self.paths else (),
-            tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
+            tests=(self.tests and playtests.map) or PlaytestMap({}, playtests.last_deaths if self.paths else ()),
             axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),
         )
         self.sheet.show_marks(marks)

@@ -669,7 +669,7 @@ def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monk
     doors.choose("Test")
     assert doors.shown(TryScreen).attempt.simulation.ninja.x == 24 * 10 + 12.0, "beside the switch"
     doors.press("escape")
-    doors.editor.session.tried(doors.draft.level, RIGHT, over=True)
+    doors.editor.session.add_playtest(doors.draft.level, RIGHT, over=True)
     doors.choose("Test")
     assert bytes(doors.shown(TryScreen).attempt.inputs) == RIGHT[:26]
 

@@ -47,12 +47,12 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.type("ninja")
     room.frames()
     assert (listed.find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
-    assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
+    assert (session.tools.symmetry, session.at_pointer.start, session.tools.slopes) == ("left-right", "standing", True)
     room.press("escape")
     room.press("shift+z", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
-    assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
+    assert (session.tools.symmetry, session.at_pointer.start, session.tools.slopes) == ("off", "off", True)
     assert (session.tools.draws_objects, session.tools.tool) == (False, "brush")
     assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
     assert (listed.find.text, len(listed.shown)) == ("", 2)
@@ -99,7 +99,7 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
     assert hints == ["Key at the pointer: F6", *(f"Key: {key}" for key in keys), ""]
     assert len(hints) == len(IN_MORE) + 2
     room.choose("What can be reached from the pointer")
-    assert room.editor.session.start == "standing"
+    assert room.editor.session.at_pointer.start == "standing"
     room.choose("More")
     room.choose("Test with the ninja at a click")
     room.drag((300, 400))
@@ -126,7 +126,7 @@ def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
     text = (PACK / f"{name}.txt").read_text("utf-8").replace("@", ".", 1)
     (levels / "mine.txt").write_text(text, "utf-8")
     room.editor.commands.open_file(levels / "mine.txt")
-    session._known_runs.finish()
+    session.edited.known_runs.finish()
     room.frames()
     assert session.certifier.text == "", "of another level"
 
