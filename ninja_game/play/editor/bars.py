@@ -23,7 +23,7 @@ _BUTTONS = (
     ("brush", "Brush", 38, 0), ("rectangle", "Box", 28, 0), ("line", "Line", 30, 0), ("ellipse", "Ellipse", 42, 0),
     ("fill", "Fill", 26, 0), ("select", "Select", 42, 0), ("pick", "Pick", 32, 4),
     ("symmetry", "Mirror: {symmetry}", 86, 0), ("grid", "Grid: {grid}", 92, 0), ("snap_next", "Snap: {snap}", 72, 4),
-    ("test", "Test", 34, 0), ("certify", "{certify}", 46, 0), ("more", "More", 34, 0), ("help", "Help", 32, 0),
+    ("playtest", "Test", 34, 0), ("certify", "{certify}", 46, 0), ("more", "More", 34, 0), ("help", "Help", 32, 0),
 )  # fmt: skip
 """Command, text, width, more than the usual gap behind it, px."""
 

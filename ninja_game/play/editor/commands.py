@@ -20,32 +20,28 @@ from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.messages import LevelMessage, parse_messages
-from ninja_game.formats.named_level import NamedLevel
-from ninja_game.levels.episodes import GAME, YOURS, Entry, Mood
+from ninja_game.formats.messages import parse_messages
+from ninja_game.levels.episodes import GAME, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
+from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.stamp_menu import StampMenu
 from ninja_game.play.editor.view import DOUBLE, EditorView
-from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
-from ninja_game.player.attempt import Attempt
-from ninja_game.player.playthrough import Navigation, PacedRun, Playthrough
 from ninja_game.runs.messages import heard
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import next_option
 
@@ -65,13 +61,9 @@ what is selected."""
 
 
 NAMELESS = "My level"  # the name of a level to which its maker gave none
-Begun = tuple[bytes, int]  # what a test begins with: ``lead`` and ``deaths`` of a Playthrough
+_IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "playtest", "certify"}
 
-NOTHING_BEGUN: Begun = b"", 0
-
-_IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
-
-IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
+IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")
 
 STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
 
@@ -127,7 +119,7 @@ class EditorCommands(DocumentCommands):
             **{f"snap_{snap}": partial(setattr, tools, "snap", snap) for snap in SNAPS},
             "help": lambda: self.app.push(HelpPage(self.app, "The editor", _HELP, EDITOR_COMMANDS.commands)),
             "menu": self.menu, "file": self.file_menu, "more": self.more,
-            "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
+            "playtest": self.playtest, "playtest_here": lambda: self.playtest(tools.pointer), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
@@ -142,7 +134,7 @@ class EditorCommands(DocumentCommands):
             "find": lambda: setattr(view, "listing", True),
             "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),
             "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
-            "tests": self.switch_tests,
+            "playtests": self.switch_playtests,
             "reach": self.next_reach,
             "next_finding": lambda: self.go_to_finding(self.view.finding + 1),
             "next_entry": lambda: self._palette.step(1),
@@ -243,14 +235,14 @@ class EditorCommands(DocumentCommands):
         setattr(self.view, name, not getattr(self.view, name))
         self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
 
-    def switch_tests(self) -> None:
-        """Show or hide the paths and deaths of all tests of the level as it is."""
+    def switch_playtests(self) -> None:
+        """Show or hide the paths and deaths of all playtests of the level as it is."""
         view, count = self.view, len(self.session.playtests.shown)
-        view.tests = not view.tests
+        view.playtest_map = not view.playtest_map
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         if not count:
             what = "No tests yet: F5 plays the level"
-        view.hint = what if view.tests else ""
+        view.hint = what if view.playtest_map else ""
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
@@ -280,19 +272,19 @@ class EditorCommands(DocumentCommands):
             self.view.hovering = True
         self.view.hint = finding.advice
 
-    # --- trying and certifying ---
+    # --- playtesting and certifying ---
 
-    def test(self, at: Point | None = None, says: str | None = None, begun: Begun = NOTHING_BEGUN) -> None:
-        """Play the level. ``says``: other messages. ``at``: where the ninja begins, by default at its place.
+    def playtest(self, at: Point | None = None, *, says: str | None = None, lead: bytes = b"", deaths: int = 0) -> None:
+        """Play the level. ``at``: where the ninja begins; there, no message of the level's start is shown.
 
-        Elsewhere nothing is said of the start.
+        ``says``: other messages than the level's; ``lead``, ``deaths``: as of ``PlaytestScreen``.
         """
         session, entry = self.session, self._entry()
         session.tools.finish()
         try:
             level = with_ninja_at(session.draft, at) if at else session.draft.level
             says = session.draft.says if says is None else says
-            screen = TryScreen(self.app, session, level, says, entry, begun)
+            screen = PlaytestScreen(session, level, says=says, there=entry, lead=lead, deaths=deaths)
         except LevelError as error:
             self.app.notify(f"{error.what}: Shift+N and a click places a ninja, F6 tests with one at the pointer")
             return
@@ -301,15 +293,15 @@ class EditorCommands(DocumentCommands):
             screen.play.messages.at_start()
         self.app.push(screen)
 
-    def test_message(self, number: int, place: Point | None, says: str) -> None:
+    def playtest_message(self, number: int, place: Point | None, says: str) -> None:
         """Play the level with these messages from just before one of them; ``place``: where it is said, if known.
 
-        The way there is that of the known run, or of the last test; else it begins on a floor before the place.
+        The way there is that of the known run, or of the last playtest; else it begins on a floor before the place.
         """
         session, messages = self.session, parse_messages(says)
         level, message = session.draft.level, messages[number] if messages else None
         if message is None or message.when in {"start", "death"}:
-            self.test(None, says, (b"", int(message.number) if message else 0))
+            self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
         runs = [
@@ -317,13 +309,14 @@ class EditorCommands(DocumentCommands):
             *(run.inputs for run in session.playtests.shown[-1:] if run.level == level),
             waits,
         ]
-        with suppress(LevelError):  # without a ninja, which the test reports
+        with suppress(LevelError):  # without a ninja, which the playtest reports
             moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
             if lead is not None:
-                self.test(None, says, (lead, 0))
+                self.playtest(says=says, lead=lead)
                 return
-        self.test(place and place_before(session.draft, place, message.size, touch=message.when != "at"), says)
+        at = place and place_before(session.draft, place, message.size, touch=message.when != "at")
+        self.playtest(at, says=says)
 
     def certify(self) -> None:
         certifier = self.session.certifier
@@ -362,16 +355,16 @@ class EditorCommands(DocumentCommands):
             view.hint = _AGAIN
 
     def more(self) -> None:
-        """A menu of all commands about tests and about what is shown, for the mouse."""
+        """A menu of all commands about playtests and about what is shown, for the mouse."""
 
-        def test_at(cell: Cell | None) -> None:
+        def playtest_at(cell: Cell | None) -> None:
             if cell:
-                self.test(self.session.tools.pointer)
+                self.playtest(self.session.tools.pointer)
 
         def ask() -> None:
-            self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
+            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc gives up"
 
-        here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("test_here", *IN_MORE))
+        here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("playtest_here", *IN_MORE))
         choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
         self.app.push(Menu(self.app, "More", [choose_place, *rows, CANCEL]))
@@ -480,7 +473,7 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, inputs, test = self._entry(), partial(getattr, self.session, "certifying_inputs"), self.test_message
+        entry, inputs, test = self._entry(), lambda: self.session.certifying_inputs, self.playtest_message
         mood = entry.mood if entry else Mood()
         self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
 
@@ -530,72 +523,3 @@ class EditorCommands(DocumentCommands):
             CANCEL,
         ]
         self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))
-
-
-class TryContext(Playthrough):
-    """A level that is only tested: with practice tools, without a clock; nothing counts."""
-
-    next_label = "back to the editor"
-
-    def __init__(self, session: EditorSession, entry: Entry, begun: Begun) -> None:
-        super().__init__(session.app.player, entry, practice_mode=True)
-        self._session, (self.lead, self.deaths) = session, begun
-
-    def _tried(self, attempt: Attempt, *, over: bool) -> None:
-        self._session.add_playtest(self.level, bytes(attempt.inputs), over=over)
-
-    def beginning(self) -> tuple[Level, bytes]:
-        """The start of the level under edit, wherever the test begins: its texts lie where they will lie in play."""
-        level, inputs = self._session.draft.level, self._session.certifying_inputs
-        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), inputs
-
-    def ghosts(self) -> list[PacedRun]:
-        """None: a level under edit has no best run."""
-        return []
-
-    def messages(self) -> tuple[LevelMessage, ...]:
-        """All messages, however often the level was passed."""
-        return parse_messages(self.entry.named.says)
-
-    def passed(self, attempt: Attempt) -> list[str]:
-        self._tried(attempt, over=True)
-        certifies = not self.lead and self._session.passed(self.level, attempt)
-        return ["It can be passed: this run certifies it" if certifies else "It can be passed"]
-
-    def died(self, attempt: Attempt) -> None:
-        self._tried(attempt, over=True)
-
-    def gave_up(self, attempt: Attempt) -> None:
-        self.left(attempt, over=True)
-
-    def left(self, attempt: Attempt, *, over: bool = False) -> None:
-        """Report to the editor a test that was left before its end."""
-        if attempt.outcome == "running":
-            self._tried(attempt, over=over)
-
-    def advance(self) -> Navigation:
-        return Navigation.BACK
-
-
-class TryScreen(LevelScreen):
-    """Plays a level, in the colours of ``there``; the back key leaves at once. Raises LevelError without a ninja."""
-
-    music = SILENCE
-
-    def __init__(
-        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun
-    ) -> None:
-        title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
-        named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""), begun)
-        super().__init__(app, self._trying)
-
-    def leave(self) -> None:
-        super().leave()
-        self._trying.left(self.attempt)
-
-    def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
-        if "back" in pressed or "quit" in pressed:
-            self.app.pop()
-        else:
-            super()._dispatch_action(pressed)

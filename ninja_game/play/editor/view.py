@@ -217,7 +217,7 @@ class EditorView(Pane):
         self._hint = session.draft, ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = self.tests = False  #: whether a list replaces the palette; whether the map of tests is on
+        self.listing = self.playtest_map = False  #: whether a list replaces the palette; whether that map is shown
         #: gets the cell of the next press, which then draws nothing; None: cancelled
         self.taker: Callable[[Cell | None], None] | None = None
         session.tools.gave_up = self._tell_given_up
@@ -417,7 +417,7 @@ class EditorView(Pane):
         playtests, examination, drone_round = session.playtests, session.examination, session.at_pointer.drone_round
         state = (
             draft.objects, self.lines, self.paths, playtests.last_route, certification.route, stale,
-            examination.findings, session.tools.symmetry, draft.says, self.tests and playtests.map,
+            examination.findings, session.tools.symmetry, draft.says, self.playtest_map and playtests.map,
             playtests.last_deaths, drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
@@ -429,6 +429,7 @@ class EditorView(Pane):
         routes: list[tuple[PathPoints, Colour]] = [(playtests.last_route, palette.ghost)]
         routes.append((certification.route, palette.faint if stale else palette.good))
         routes.append((drone_round, palette.bad))
+        last = PlaytestMap({}, playtests.last_deaths if self.paths else ())
         marks = level_marks(
             self.sheet.flat,
             palette,
@@ -438,7 +439,7 @@ class EditorView(Pane):
             signs=list(dict.fromkeys(signs)),
             messages=list(message_places(draft)),
             routes=routes if self.paths else (),
-            tests=(self.tests and playtests.map) or PlaytestMap({}, playtests.last_deaths if self.paths else ()),
+            playtests=(self.playtest_map and playtests.map) or last,
             axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),
         )
         self.sheet.show_marks(marks)

@@ -31,11 +31,12 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.editor.bars import StatusLine, Toolbar
-from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
+from ninja_game.play.editor.commands import EDITOR_COMMANDS
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.panels import Findings
 from ninja_game.play.editor.part import ToolButton
+from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.properties import FIRST_STEPS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import GRIDS, sign_mark
@@ -157,7 +158,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
     assert isinstance(room.top(), EditorScreen)
     room.pad(x)
     room.pad(6)  # the start button tries it out
-    assert isinstance(room.top(), TryScreen)
+    assert isinstance(room.top(), PlaytestScreen)
 
 
 def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -> None:
@@ -168,7 +169,7 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     room.keys.script = [2] * 20
     room.press("space")
     room.frames(19)
-    assert isinstance(room.top(), TryScreen)
+    assert isinstance(room.top(), PlaytestScreen)
     room.press("escape")
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
@@ -315,7 +316,7 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
 
 def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
     for command in EDITOR_COMMANDS.commands:
-        if command.name not in ("certify", "menu", "test", "test_here"):
+        if command.name not in ("certify", "menu", "playtest", "playtest_here"):
             room.editor.commands.run(command.name)
             room.frames()
             while not isinstance(room.top(), EditorScreen):
@@ -1114,7 +1115,7 @@ def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     assert room.app.notice.startswith("Saved")
     room.press("f5")
-    assert isinstance(room.top(), TryScreen)
+    assert isinstance(room.top(), PlaytestScreen)
     assert not room.app.notice
     room.press("escape")
     room.drag((300, 300))

@@ -15,9 +15,10 @@ from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.solver import Certification, search_of
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
-from ninja_game.play.editor.commands import IN_MORE, TryScreen
+from ninja_game.play.editor.commands import IN_MORE
 from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.panels import FilePart
+from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import Menu
 from ninja_game.ui.widgets import Button
@@ -103,7 +104,7 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
     room.choose("More")
     room.choose("Test with the ninja at a click")
     room.drag((300, 400))
-    ninja = room.shown(TryScreen).attempt.simulation.world.ninja
+    ninja = room.shown(PlaytestScreen).attempt.simulation.world.ninja
     assert abs(ninja.x - 300) < 12
 
 
