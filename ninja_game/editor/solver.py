@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
-from functools import partial
 from threading import Event, Lock
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -50,6 +49,9 @@ class Certification:
     known: tuple[bytes, ...] = ()  #: inputs of runs of the level as it was before, tried first
     stopping: Event = field(default_factory=Event)  #: set to end it
     lock: AbstractContextManager[object] = field(default_factory=Lock)  #: around changes by either thread
+
+    def report(self, progress: Progress) -> None:
+        self.progress = progress
 
     def take(self, run: Replay) -> None:
         """Keep a run of the level if it is the fastest, or the fastest with all gold."""
@@ -108,8 +110,7 @@ class Solver:
 
             self.compiles = not is_solver_compiled()
             task = Task(certification.level, seconds=certification.seconds, others=certification.known)
-            report = partial(setattr, certification, "progress")
-            result = solve(task, report=report, on_better=certification.take, stop=certification.stopping)
+            result = solve(task, report=certification.report, on_better=certification.take, stop=certification.stopping)
             vain = certification.progress if not (result or certification.run or certification.end) else None
             obstacles = (obstacle(certification.level, 0, vain),) if vain else ()
         except BaseException as error:

@@ -76,9 +76,11 @@ _MIRRORS = {
 }
 """The symmetries, and what they do."""
 
-_AGAIN = "Esc again opens the File menu, where Leave is too"
-
 _UNDO = "Undo brings back what was here"
+
+
+def _shown(shown: bool) -> str:
+    return "shown" if shown else "hidden"
 
 
 class EditorCommands(DocumentCommands):
@@ -110,13 +112,13 @@ class EditorCommands(DocumentCommands):
             "takes": ({what: partial(tools.take, what) for what in TAKES}, tools.takes),
             "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[tools.symmetry]),
             "grid": ({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
-            "snap_next": ({snap: partial(setattr, tools, "snap", snap) for snap in SNAPS}, tools.snap),
+            "snap_next": ({snap: partial(self.snap, snap) for snap in SNAPS}, tools.snap),
         }
 
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            **{f"snap_{snap}": partial(setattr, tools, "snap", snap) for snap in SNAPS},
+            **{f"snap_{snap}": partial(self.snap, snap) for snap in SNAPS},
             "help": lambda: self.app.push(HelpPage(self.app, "The editor", _HELP, EDITOR_COMMANDS.commands)),
             "menu": self.menu, "file": self.file_menu, "more": self.more,
             "playtest": self.playtest, "playtest_here": lambda: self.playtest(tools.pointer), "certify": self.certify,
@@ -130,10 +132,8 @@ class EditorCommands(DocumentCommands):
             "turn": lambda: view.turn(CLOCKWISE),
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
-            "list": lambda: setattr(view, "listing", not view.listing),
-            "find": lambda: setattr(view, "listing", True),
-            "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),
-            "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
+            "list": lambda: self.show_list(not view.listing), "find": lambda: self.show_list(True),
+            "lines": self.switch_lines, "paths": self.switch_paths,
             "playtests": self.switch_playtests,
             "reach": self.next_reach,
             "next_finding": lambda: self.go_to_finding(self.view.finding + 1),
@@ -220,6 +220,9 @@ class EditorCommands(DocumentCommands):
         else:
             self.run(name)
 
+    def snap(self, snap: str) -> None:
+        self.session.tools.snap = snap
+
     def mirror(self, symmetry: str) -> None:
         self.session.tools.finish()
         self.session.tools.symmetry = symmetry
@@ -231,9 +234,16 @@ class EditorCommands(DocumentCommands):
         how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
         self.view.hint = f"Slopes {how}"
 
-    def switch(self, name: str, what: str) -> None:
-        setattr(self.view, name, not getattr(self.view, name))
-        self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
+    def show_list(self, listing: bool) -> None:
+        self.view.listing = listing
+
+    def switch_lines(self) -> None:
+        self.view.lines = not self.view.lines
+        self.view.hint = f"Lines from doors and exits to their switches are {_shown(self.view.lines)}"
+
+    def switch_paths(self) -> None:
+        self.view.paths = not self.view.paths
+        self.view.hint = f"Paths of the last test and of the solver are {_shown(self.view.paths)}"
 
     def switch_playtests(self) -> None:
         """Show or hide the paths and deaths of all playtests of the level as it is."""
@@ -348,11 +358,11 @@ class EditorCommands(DocumentCommands):
             return
         if tools.tool not in (TOOLS[0], "select"):
             tools.tool = TOOLS[0]
-        elif view.hint == _AGAIN:
+        elif view.offers_menu:
             view.hint = ""
             self.file_menu()
         else:
-            view.hint = _AGAIN
+            view.offer_menu()
 
     def more(self) -> None:
         """A menu of all commands about playtests and about what is shown, for the mouse."""

@@ -112,7 +112,11 @@ def _copying(tools: EditorTools) -> list[_RowMaker]:
         )
     if tools.ghost.tiles if tools.ghost else tools.selection.area:
         empty = [("empty cells: left out", False), ("empty cells: copied", True)]
-        put_empty, about = partial(setattr, tools, "pastes_empty"), "Whether empty cells of a copy remove tiles there"
+        about = "Whether empty cells of a copy remove tiles there"
+
+        def put_empty(copied: bool) -> None:
+            tools.pastes_empty = copied
+
         rows.append(lambda area: Choice(area, "", empty, lambda: tools.pastes_empty, put_empty, hint=about))
     return rows
 
@@ -150,7 +154,11 @@ def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
         rows += _hints(["Then click where its switch is"])
     elif tools.effective_tool in CURVES:
         words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
-        put, hint = partial(setattr, tools, "spacing"), "How far apart they lie along it"
+
+        def put(spacing: float) -> None:
+            tools.spacing = spacing
+
+        hint = "How far apart they lie along it"
         rows.append(lambda area: Choice(area, "", words, lambda: tools.spacing, put, hint=hint))
     return f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}", rows
 

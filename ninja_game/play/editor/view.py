@@ -205,6 +205,14 @@ class EditorLayout(NamedTuple):
 LAYOUT = EditorLayout()
 
 
+class Hint(NamedTuple):
+    """A text of the status line about a draft. ``offers_menu``: whether Esc opens the File menu while it is shown."""
+
+    draft: Draft
+    text: str
+    offers_menu: bool = False
+
+
 class EditorView(Pane):
     """The level under edit with its overlay."""
 
@@ -214,7 +222,7 @@ class EditorView(Pane):
         self.app = app
         self.session = session
         self.hovering = self.by_keys = False  #: whether the pointer is shown; whether keys or a pad moved it last
-        self._hint = session.draft, ""
+        self._hint = Hint(session.draft, "")
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
         self.listing = self.playtest_map = False  #: whether a list replaces the palette; whether that map is shown
@@ -236,12 +244,19 @@ class EditorView(Pane):
     @property
     def hint(self) -> str:
         """A text for the status line; it is dropped when the level changes."""
-        about, text = self._hint
-        return text if about is self.session.draft else ""
+        return self._hint.text if self._hint.draft is self.session.draft else ""
 
     @hint.setter
     def hint(self, text: str) -> None:
-        self._hint = self.session.draft, text
+        self._hint = Hint(self.session.draft, text)
+
+    @property
+    def offers_menu(self) -> bool:
+        """Whether the hint that is shown offers the File menu."""
+        return bool(self.hint) and self._hint.offers_menu
+
+    def offer_menu(self) -> None:
+        self._hint = Hint(self.session.draft, "Esc again opens the File menu, where Leave is too", offers_menu=True)
 
     def _tell_given_up(self, spec: ObjectSpec) -> None:
         self.app.notify(f"The {object_type_name(spec)} is put away: it had no switch yet")
