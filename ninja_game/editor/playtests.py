@@ -10,8 +10,8 @@ from math import dist, isfinite
 from struct import iter_unpack
 from typing import NamedTuple
 
-from ninja_game.editor.brush import EMPTY, object_of_type, placed
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.palette import EMPTY, object_of_type, placed
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.formats.messages import FRAME_SIZE

@@ -370,11 +370,11 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.frames(2)
     for name, tile in (("tiles", True), ("objects", False)):
         for symmetry in ("left-right", "both"):
-            screen.session.tools.symmetry = symmetry
+            screen.session.tools.brush.symmetry = symmetry
             screen.session.tools.pick_up(8 if tile else ObjectSpec(GOLD, (0.0, 0.0)))
             driver.mouse(200, 160, click=False)
             yield f"editor-symmetry-{symmetry}-{name}"
-    screen.session.tools.symmetry = "off"
+    screen.session.tools.brush.symmetry = "off"
     certifier = screen.session.certifier
     yield "editor-not-certified"
     run = replace(load_replays(bundled_replays()[0])[0].replay, final_tick=156, gold=0)

@@ -45,7 +45,7 @@ class Toolbar(EditorPart):
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
         history = tools.history.can_undo, tools.history.can_redo
-        return tools.effective_tool, tools.symmetry, self.view.grid, tools.snap, history, self.session.certify_text
+        return tools.effective_tool, tools.brush.state, self.view.grid, history, self.session.certify_text
 
 
 class StatusLine(EditorPart):
@@ -59,7 +59,7 @@ class StatusLine(EditorPart):
     def _text(self) -> str:
         tools = self.session.tools
         if tools.placing_switch:
-            what = object_type_name(tools.spec)
+            what = object_type_name(tools.brush.spec)
             return f"Now the switch of the {what}: click where it is. Esc puts the {what} away"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
@@ -69,13 +69,13 @@ class StatusLine(EditorPart):
             drag = ", Select drags it" if message.place else ""
             return f"Double click opens the message{drag}: {message.one_line}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
-        if tools.slopes and tools.tool == "rectangle" and not tools.draws_objects:
+        if tools.brush.slopes and tools.tool == "rectangle" and not tools.brush.draws_objects:
             slopes = "No slopes: a box keeps its corners. "
         if tools.tool == "select" and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
         start, shown = self.session.at_pointer.start, slopes + _TOOL_HINTS[tools.effective_tool]
-        if tools.draws_objects and tools.effective_tool == "brush" and tools.spec.kind in (DOOR, EXIT):
-            what, two = object_type_name(tools.spec), has_switch(tools.spec)
+        if tools.brush.draws_objects and tools.effective_tool == "brush" and tools.brush.spec.kind in (DOOR, EXIT):
+            what, two = object_type_name(tools.brush.spec), has_switch(tools.brush.spec)
             shown = (
                 f"Click where the {what} is{', then where its switch is' if two else ': it has no switch'}. F1: help"
             )

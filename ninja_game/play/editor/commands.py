@@ -7,11 +7,11 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.examination import UNREACHABLE_CODES
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
+from ninja_game.editor.palette import SNAPS
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
@@ -106,13 +106,13 @@ class EditorCommands(DocumentCommands):
 
     def _steps(self) -> dict[str, tuple[dict[str, Action], str]]:
         """The steps of the commands that go on to the next one, by their names, and the present step."""
-        tools, view, mirrors = self.session.tools, self.view, _MIRRORS
+        tools, view, brush, mirrors = self.session.tools, self.view, self.session.tools.brush, _MIRRORS
         return {
             "next_tool": ({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
             "takes": ({what: partial(tools.take, what) for what in TAKES}, tools.takes),
-            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[tools.symmetry]),
+            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[brush.symmetry]),
             "grid": ({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
-            "snap_next": ({snap: partial(self.snap, snap) for snap in SNAPS}, tools.snap),
+            "snap_next": ({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
         }
 
     def _table(self) -> dict[str, Action]:
@@ -127,7 +127,7 @@ class EditorCommands(DocumentCommands):
             "undo": self.undo, "redo": self.redo,
             "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": tools.choose_all, "delete": tools.delete,
-            "swap": lambda: tools.pick_up(tools.tile if tools.draws_objects else tools.spec),
+            "swap": lambda: tools.pick_up(tools.brush.tile if tools.brush.draws_objects else tools.brush.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
             "turn": lambda: view.turn(CLOCKWISE),
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
@@ -221,17 +221,17 @@ class EditorCommands(DocumentCommands):
             self.run(name)
 
     def snap(self, snap: str) -> None:
-        self.session.tools.snap = snap
+        self.session.tools.brush.snap = snap
 
     def mirror(self, symmetry: str) -> None:
         self.session.tools.finish()
-        self.session.tools.symmetry = symmetry
+        self.session.tools.brush.symmetry = symmetry
         self.view.hint = f"Mirror: {_MIRRORS[symmetry]}"
 
     def switch_slopes(self) -> None:
         tools = self.session.tools
-        self.session.set_slopes(not tools.slopes)
-        how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
+        self.session.set_slopes(not tools.brush.slopes)
+        how = "set themselves where full tiles are drawn or erased" if tools.brush.slopes else "stay as drawn"
         self.view.hint = f"Slopes {how}"
 
     def show_list(self, listing: bool) -> None:

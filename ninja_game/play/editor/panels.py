@@ -29,7 +29,7 @@ class PalettePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return tools.tile, tools.spec, self._palette.hovered, tools.draws_objects
+        return tools.brush.tile, tools.brush.spec, self._palette.hovered, tools.brush.draws_objects
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -50,12 +50,13 @@ class ToolButton(Button):
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         tools, (x, y, w, h) = self.view.session.tools, self.area
-        lit = self.name == tools.effective_tool or (self.name == "symmetry" and tools.symmetry != "off")
+        symmetry, snap = tools.brush.symmetry, tools.brush.snap
+        lit = self.name == tools.effective_tool or (self.name == "symmetry" and symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
         self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
         grid, certify = self.view.grid.name, self.view.session.certify_text
         zoom = "fit" if self.view.camera.zoom == 1 else f"{self.view.camera.zoom:.2g}x"
-        text = self.text.format(symmetry=tools.symmetry, grid=grid, snap=tools.snap, certify=certify, zoom=zoom)
+        text = self.text.format(symmetry=symmetry, grid=grid, snap=snap, certify=certify, zoom=zoom)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         bold, place = lit or focused, (x + w / 2, y + (h - 9) / 2)
         theme.text(surface, text, *place, size=9, colour=colour, align="centre", bold=bold, width=w)

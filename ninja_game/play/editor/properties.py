@@ -6,10 +6,11 @@ import re
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from ninja_game.editor.brush import tile_name
+from ninja_game.editor.brush import CURVES, NEAREST, SPACINGS
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
+from ninja_game.editor.palette import OTHER_KINDS, can_be_remade, remade, tile_name
 from ninja_game.editor.specs import SWITCH_PART, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import CURVES, NEAREST, OTHER_KINDS, SPACINGS, TAKES, EditorTools, can_be_remade, remade
+from ninja_game.editor.tools import TAKES, EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -54,8 +55,9 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
             kind,
             spec and tuple(points(spec).items()),
         )
-    drawn = object_type_name(tools.spec) if tools.draws_objects else tools.tile
-    return tools.draft.level == Level(), tools.draws_objects, drawn, tools.effective_tool in CURVES, _taking(tools)
+    brush = tools.brush
+    drawn = object_type_name(brush.spec) if brush.draws_objects else brush.tile
+    return tools.draft.level == Level(), brush.draws_objects, drawn, tools.effective_tool in CURVES, _taking(tools)
 
 
 def _taking(tools: EditorTools) -> str:
@@ -88,7 +90,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         rows = [_turning(view)]
     elif tools.selection and tools.chosen is None:
         title, rows = _of_several(view)
-    elif tools.selection or tools.draws_objects:
+    elif tools.selection or tools.brush.draws_objects:
         title, rows = _of_object(tools)
     else:
         title, rows = _of_tile(view)
@@ -145,7 +147,7 @@ def _of_several(view: EditorView) -> tuple[str, list[_RowMaker]]:
 
 def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
     """The selected object, or the one in hand."""
-    spec = tools.chosen or tools.spec
+    spec = tools.chosen or tools.brush.spec
     rows: list[_RowMaker] = [_choice(tools, name) for name in properties(spec)]
     rows += _hints([f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()])
     if tools.selection:
@@ -156,23 +158,21 @@ def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
         words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
 
         def put(spacing: float) -> None:
-            tools.spacing = spacing
+            tools.brush.spacing = spacing
 
         hint = "How far apart they lie along it"
-        rows.append(lambda area: Choice(area, "", words, lambda: tools.spacing, put, hint=hint))
+        rows.append(lambda area: Choice(area, "", words, lambda: tools.brush.spacing, put, hint=hint))
     return f"{'Selected' if tools.selection else _taking(tools)}: {object_type_name(spec)}", rows
 
 
 def _of_tile(view: EditorView) -> tuple[str, list[_RowMaker]]:
-    tools, set_slopes = view.session.tools, view.session.set_slopes
+    tools, set_slopes, about = view.session.tools, view.session.set_slopes, EDITOR_COMMANDS.hint("slopes")
     first = FIRST_STEPS if tools.draft.level == Level() else ()
     rows: list[_RowMaker] = [partial(Label, text=text, size=9.5) for text in first]
     rows += _hints(["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"])
     modes = [("slopes: by hand", False), ("slopes: by themselves", True)]
-    rows.append(
-        lambda area: Choice(area, "", modes, lambda: tools.slopes, set_slopes, hint=EDITOR_COMMANDS.hint("slopes"))
-    )
-    return f"{_taking(tools)}: {tile_name(tools.tile)}", rows
+    rows.append(lambda area: Choice(area, "", modes, lambda: tools.brush.slopes, set_slopes, hint=about))
+    return f"{_taking(tools)}: {tile_name(tools.brush.tile)}", rows
 
 
 _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
@@ -235,7 +235,7 @@ def _common(specs: Sequence[ObjectSpec]) -> list[str]:
 
 def _present(tools: EditorTools, name: str) -> str:
     """The word for a property of all subjects, "" where they differ."""
-    if name == "side" and tools.nearest and not tools.selection:
+    if name == "side" and tools.brush.nearest and not tools.selection:
         return NEAREST
     words = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
     return words.pop() if len(words) == 1 else ""
@@ -303,5 +303,4 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        spec = tools.chosen or tools.spec
-        return self._subject, tools.tile, spec, tools.selection, tools.slopes, tools.spacing, tools.nearest
+        return self._subject, tools.chosen, tools.selection, tools.brush.state

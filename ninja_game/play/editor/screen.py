@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import pygame
 
-from ninja_game.editor.brush import SNAPS, ObjectType, snapped
 from ninja_game.editor.files import Source
+from ninja_game.editor.palette import SNAPS, ObjectType, snapped
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
@@ -131,7 +131,7 @@ class EditorScreen(WorkspaceScreen):
         if tools.tool == "select" and tools.selection and not self.view.by_keys:
             tools.nudge(dx, dy)
             return
-        snap = tools.snap if tools.draws_objects or tools.tool == "select" else "cell"
+        snap = tools.brush.snap if tools.brush.draws_objects or tools.tool == "select" else "cell"
         x, y = tools.pointer
         step = SNAPS[snap]
         self.view.hovering = self.view.by_keys = True

@@ -49,7 +49,7 @@ class EditorSession:
         self.certifier = Certifier(app.solver)
         self.edited = EditedLevel(app.player.folder, source or files.new_source(app.settings.name, room=True))
         self.tools = EditorTools(self.edited.draft)
-        self.tools.slopes = app.settings.slopes
+        self.tools.brush.slopes = app.settings.slopes
         self._edit(self.edited)
         if source:
             self._recognise()
@@ -90,7 +90,7 @@ class EditorSession:
 
     def set_slopes(self, slopes: bool) -> None:
         """Switch automatic slopes on or off, in this editor and all later ones."""
-        self.tools.slopes = slopes
+        self.tools.brush.slopes = slopes
         self.app.change_settings(slopes=slopes)
 
     @property

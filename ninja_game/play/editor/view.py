@@ -155,7 +155,7 @@ class Overlay:
             self._ghost(ghost, empty=tools.pastes_empty)
             return
         draws = tools.effective_tool not in ("select", "pick")
-        motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
+        motions = (Motion(), *(SYMMETRIES[tools.brush.symmetry] if draws else ()))
         if not draws:
             target = tools.near(PICK_REACH)
             for message in messages_at(tools.draft.says, tools.cell):
@@ -164,7 +164,7 @@ class Overlay:
             if target:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
                 return
-        if not tools.draws_objects or not draws:
+        if not tools.brush.draws_objects or not draws:
             for cell, tile in tools.preview.items() if draws else ():
                 self._ghost_tile(cell, tile)
             for motion in motions:
@@ -397,12 +397,10 @@ class EditorView(Pane):
 
     def render_key(self) -> tuple[object, ...]:
         """All that the overlay depends on; the sheet watches the level itself."""
-        tools = self.session.tools
+        tools, reach = self.session.tools, self.session.at_pointer.reach
         return (
-            tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
-            tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
-            tools.marquee, tools.placing_switch, tools.draft, self.message,
-            self.session.at_pointer.reach and self.session.at_pointer.reach[1:],
+            tools.pointer, self.hovering, tools.tool, tools.brush.state, tools.ghost, tools.pastes_empty,
+            tools.selection, tools.marquee, tools.placing_switch, tools.draft, self.message, reach and reach[1:],
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
@@ -432,7 +430,7 @@ class EditorView(Pane):
         playtests, examination, drone_round = session.playtests, session.examination, session.at_pointer.drone_round
         state = (
             draft.objects, self.lines, self.paths, playtests.last_route, certification.route, stale,
-            examination.findings, session.tools.symmetry, draft.says, self.playtest_map and playtests.map,
+            examination.findings, session.tools.brush.symmetry, draft.says, self.playtest_map and playtests.map,
             playtests.last_deaths, drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
@@ -455,7 +453,7 @@ class EditorView(Pane):
             messages=list(message_places(draft)),
             routes=routes if self.paths else (),
             playtests=(self.playtest_map and playtests.map) or last,
-            axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),
+            axes=SYMMETRY_AXES.get(session.tools.brush.symmetry, ()),
         )
         self.sheet.show_marks(marks)
 

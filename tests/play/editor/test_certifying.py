@@ -18,10 +18,10 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
-from ninja_game.editor.brush import object_of_type, placed, with_switch
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.examination import Question, examined
 from ninja_game.editor.files import open_source
+from ninja_game.editor.palette import object_of_type, placed, with_switch
 from ninja_game.editor.reach import LANDED_TICK, Ask, find_reach
 from ninja_game.editor.solver import Certification, Certifier, Solver, search_of
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points

@@ -14,11 +14,11 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
-from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.examination import Examined
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.motion import SYMMETRIES
+from ninja_game.editor.palette import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
 from ninja_game.editor.playtests import with_ninja_at
 from ninja_game.editor.reach import LANDED_TICK, SQUARE, STARTS, Reach
 from ninja_game.editor.solver import Certification
@@ -88,9 +88,9 @@ def test_from_the_menu_a_level_is_drawn_by_mouse(maker: Maker) -> None:
 def test_keys_choose_draw_and_place(room: Maker) -> None:
     tools = room.editor.session.tools
     room.press("4", "s")
-    assert tools.tile == 7
+    assert tools.brush.tile == 7
     room.press("shift+n")
-    assert tools.draws_objects
+    assert tools.brush.draws_objects
     room.press("9", "right", "down")
     before = tools.cell
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES["space"], mod=0, unicode=" "))
@@ -150,7 +150,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
     room.pad(a)
     assert room.draft.tile(cell) == 1
     room.pad(10)  # the next tile
-    assert tools.tile == 5
+    assert tools.brush.tile == 5
     room.pad(b)
     room.pad(b)
     assert isinstance(room.top(), Menu)
@@ -309,7 +309,8 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
     chosen = next(text for text in texts if text.startswith(chosen))
     room.choose(chosen)
     tools, grid = room.editor.session.tools, room.editor.view.grid.name
-    assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower().split(":")[0]
+    now = {"symmetry": tools.brush.symmetry, "grid": grid, "snap_next": tools.brush.snap}
+    assert now[name] == chosen.lower().split(":")[0]
     room.mouse(*button.centre)
     assert getattr(room.shown(Menu).focus, "text", "") == chosen, "what there is now has the focus"
 
@@ -500,7 +501,7 @@ def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
 
 def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     tools = room.editor.session.tools
-    tools.tool, tools.draws_objects = "fill", False
+    tools.tool, tools.brush.draws_objects = "fill", False
     assert tools.effective_tool == "fill"
     before = len(room.draft.objects)
     tools.pick_up(object_of_type("locked door"))
@@ -719,14 +720,14 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
     room.press("i")
     spacing = room.editor.properties.widgets[-1]
     room.mouse(*spacing.centre)
-    assert tools.spacing == 36.0
+    assert tools.brush.spacing == 36.0
     room.mouse(*room.at(60, 204), click=False)
     tools.press()
     tools.move(276, 204)
     room.wheel(2, *room.at(276, 204))
     assert min(spec.values[1] for spec in room.draft.objects[2:]) == 180.0, "the wheel away from oneself bends it up"
     room.editor.view.release()
-    assert tools.spec == object_of_type("gold"), "the palette stayed where it was"
+    assert tools.brush.spec == object_of_type("gold"), "the palette stayed where it was"
 
 
 def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
@@ -815,8 +816,8 @@ def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
     find = room.editor.sides[1].widgets[0]
     room.press("f3", "x")
-    assert (tools.snap, view.listing) == ("half", True), "the list alone takes no keys"
-    tools.snap = "cell"
+    assert (tools.brush.snap, view.listing) == ("half", True), "the list alone takes no keys"
+    tools.brush.snap = "cell"
     room.press("f3")
     for leave in ("return", "escape"):
         room.chord("f", pygame.KMOD_LCTRL)
@@ -824,11 +825,11 @@ def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
         room.wheel(1, 100, 540)
         room.type("gol")
         assert isinstance(find, TextEntry)
-        assert (find.text, tools.snap, tools.draws_objects) == ("gol", "cell", False)
+        assert (find.text, tools.brush.snap, tools.brush.draws_objects) == ("gol", "cell", False)
         room.press(leave)
         room.type("x")
-        assert (room.editor.focus, tools.snap, view.listing) == (None, "half", True)
-        tools.snap = "cell"
+        assert (room.editor.focus, tools.brush.snap, view.listing) == (None, "half", True)
+        tools.brush.snap = "cell"
         find.show("")
         room.press("f3")
 
@@ -852,10 +853,10 @@ def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> Non
     goal = maker.app.canvas.point(*maker.at(400, 300))
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=goal, rel=(0, 0), buttons=(1, 0, 0), touch=False))
     maker.frames()
-    spec, drawn = tools.spec, maker.draft
+    spec, drawn = tools.brush.spec, maker.draft
     assert drawn.objects
     maker.wheel(1, *maker.at(400, 300))
-    assert (tools.spec, maker.draft) == (spec, drawn)
+    assert (tools.brush.spec, maker.draft) == (spec, drawn)
     maker.press("escape")
     assert not maker.draft.objects, "it was still being drawn"
     assert maker.editor.view.camera.zoom == 1
@@ -928,9 +929,9 @@ def test_a_key_beside_an_entry_of_the_palette_takes_it_whatever_was_used_before(
             if key in letters:
                 assert palette._in_hand is letters[key]
             else:
-                assert not tools.draws_objects
-                assert tools.tile in TILE_KEYS or tools.tile in FAMILIES[int(key) - 1].tiles
-                assert TILE_KEYS.get(tools.tile, key) == key
+                assert not tools.brush.draws_objects
+                assert tools.brush.tile in TILE_KEYS or tools.brush.tile in FAMILIES[int(key) - 1].tiles
+                assert TILE_KEYS.get(tools.brush.tile, key) == key
     shown = []
     for _ in ("objects", "tiles"):
         shown.append(drawn(room.app))
@@ -1099,7 +1100,7 @@ def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
     before = room.draft
     room.mouse(300, 400)
     assert isinstance(room.top(), EditorScreen)
-    assert (room.draft, room.editor.session.tools.symmetry) == (before, "off")
+    assert (room.draft, room.editor.session.tools.brush.symmetry) == (before, "off")
 
 
 def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: Path) -> None:
@@ -1136,10 +1137,10 @@ def test_what_went_wrong_is_still_said_over_a_screen_that_opens_then(room: Maker
 def test_the_panel_tells_which_letters_change_what_is_in_hand(room: Maker) -> None:
     tools = room.editor.session.tools
     room.press("shift+z")
-    before = tools.spec
+    before = tools.brush.spec
     room.press("e")
-    assert tools.draws_objects
-    assert tools.spec != before, "it has a movement"
+    assert tools.brush.draws_objects
+    assert tools.brush.spec != before, "it has a movement"
     labels = [each.text for each in room.editor.properties.widgets if isinstance(each, Label)]
     assert labels[1:] == ["Q E: movement", "W A S D: direction", "N: seeker"]
 
@@ -1315,7 +1316,7 @@ def test_without_a_selection_delete_takes_only_what_is_pointed_at(room: Maker) -
 def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
     tools = room.editor.session.tools
     tools.pick_up(object_of_type("launch pad"))
-    tools.spec = tools.spec._replace(values=(*tools.spec.values[:2], 0.0, -1.0))
+    tools.brush.spec = tools.brush.spec._replace(values=(*tools.brush.spec.values[:2], 0.0, -1.0))
     room.drag((12 * 24 + 12, 22 * 24 + 12))
     pad = len(room.draft.objects) - 1
     assert pad in chosen_in(room.draft, (12, 22, 1, 1)).numbers
@@ -1408,7 +1409,7 @@ def test_a_clicked_bubble_is_shown_in_the_panel_from_which_it_opens(room: Maker)
 def test_flat_ends_of_a_bent_line_with_slopes_are_square(room: Maker, symmetry: str) -> None:
     tools = room.editor.session.tools
     room.editor.session.set_slopes(True)
-    tools.tool, tools.symmetry = "line", symmetry
+    tools.tool, tools.brush.symmetry = "line", symmetry
     tools.move(60, 480)
     tools.press()
     tools.move(340, 400)

@@ -10,8 +10,8 @@ from typing import Any
 import pygame
 import pytest
 
-from ninja_game.editor.brush import object_of_type
 from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.palette import object_of_type
 from ninja_game.editor.solver import Certification, search_of
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
@@ -48,26 +48,27 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.type("ninja")
     room.frames()
     assert (listed.find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
-    assert (session.tools.symmetry, session.at_pointer.start, session.tools.slopes) == ("left-right", "standing", True)
+    brush = session.tools.brush
+    assert (brush.symmetry, session.at_pointer.start, brush.slopes) == ("left-right", "standing", True)
     room.press("escape")
     room.press("shift+z", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
-    assert (session.tools.symmetry, session.at_pointer.start, session.tools.slopes) == ("off", "off", True)
-    assert (session.tools.draws_objects, session.tools.tool) == (False, "brush")
-    assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
+    assert (session.tools.brush.symmetry, session.at_pointer.start, session.tools.brush.slopes) == ("off", "off", True)
+    assert (session.tools.brush.draws_objects, session.tools.tool) == (False, "brush")
+    assert session.tools.brush.spec == object_of_type("gold"), "nothing of the hand carries over"
     assert (listed.find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
-    assert room.editor.session.tools.slopes
+    assert room.editor.session.tools.brush.slopes
     assert room.app.settings.slopes
     room.mouse(400, 60, click=False)
     assert "Slopes by themselves. " in drawn(room.app)
     room.mouse(*room.editor.properties.widgets[-1].centre)
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
-    assert not room.editor.session.tools.slopes, "the button below the tiles is the same switch"
+    assert not room.editor.session.tools.brush.slopes, "the button below the tiles is the same switch"
 
 
 def test_the_editor_begins_with_a_room_without_problems(tmp_path: Path) -> None:
