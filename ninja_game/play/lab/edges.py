@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import sin
 
-from ninja_game.editor.brush import tile_name
+from ninja_game.editor.palette import tile_name
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import MOVEMENTS
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, room_world

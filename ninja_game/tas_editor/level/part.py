@@ -88,7 +88,7 @@ class LevelPart(TasPart):
         playing, taken = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
-            "ghosts": lambda: setattr(self.editor, "ghosts", not self.editor.ghosts),
+            "ghosts": self._switch_ghosts,
             "whole_level": self.picture.camera.show_all, **self.others.commands(),
             **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
@@ -100,6 +100,9 @@ class LevelPart(TasPart):
             "play": playing.toggle, "step": lambda: playing.step(1), "step_back": lambda: playing.step(-1),
             "take_over": taken.begin, **shared,
         }  # fmt: skip
+
+    def _switch_ghosts(self) -> None:
+        self.editor.ghosts = not self.editor.ghosts
 
     def meaning(self, event: InputEvent) -> str:
         return self.take_over.meaning(event) if self.take_over.on else TAS_COMMANDS.meaning(event)
