@@ -62,7 +62,7 @@ class Settings:
 
     ``worlds`` play ``round`` steps between two improvements, each of ``passes`` over them. ``exit``, ``way``: what the
     exit and the way to it are worth; ``time_limit``: ticks of an episode in training. ``view``: the policy sees a
-    picture, this many px wide, around the ninja, and nothing else; 0: it sees the numbers that the value is estimated from.
+    picture, this many px wide, around the ninja, and nothing else; 0: the numbers that the value is estimated from.
     """
 
     hidden: int = 128

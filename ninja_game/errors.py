@@ -14,7 +14,7 @@ class NinjaGameError(Exception):
 
 
 def reason(error: BaseException) -> str:
-    """What went wrong, in words for the user.
+    """The error in words for the user.
 
     >>> reason(FileNotFoundError(2, "No such file", "a.txt")), reason(MemoryError()), reason(KeyError("x"))
     ('No such file', 'there is not enough memory', "a fault of the program, KeyError: 'x'")
@@ -46,8 +46,8 @@ class FormatError(NinjaGameError):
     file: str = ""
     line: int = 0
     column: int = 0
-    found: str = ""  #: what stands there
-    expected: str = ""  #: what could stand there
+    found: str = ""  #: the text at that place
+    expected: str = ""  #: the valid texts, in words
     hint: str = ""  #: how to fix it
 
     def __str__(self) -> str:

@@ -46,7 +46,7 @@ def step_world(levels: Sequence[TileMap], number: int, worlds: Sequence[World], 
 
 @kernel
 def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
-    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player gave up."""
+    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player ended the try."""
     n = worlds[index].ninja
     kill(worlds[index], cause, 0, dx, dy, n.x, n.y)
 

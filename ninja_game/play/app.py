@@ -34,7 +34,7 @@ from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
 class Screen(BaseScreen):
-    """A screen whose app is known by its type."""
+    """A screen of the program with a window; its ``app`` is an ``App``, where a BaseScreen knows only a ``Host``."""
 
     app: App
 
@@ -84,7 +84,7 @@ class App:
         #: Opens a run in the TAS editor, at a tick, with others to compare; None where there is none, as in a page
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
-        self.solver = Solver()  #: of all editors; the desk of packs shows what was stopped
+        self.solver = Solver()  #: shared by all editors; the screen of packs shows stopped searches
         self.aside: list[Aside] = []
         self.running = True
         self.frame_ms = 0.0

@@ -132,7 +132,7 @@ class Pane:
     """A part of a workspace, drawn again only when its ``render_key`` changes."""
 
     area: Area = (0, 0, 0, 0)  #: logical px
-    widgets: Sequence[Widget] = ()  #: in it; what they show is part of ``render_key``
+    widgets: Sequence[Widget] = ()  #: widgets in the pane; their state is part of ``render_key``
     wants: Widget | None = None  #: gets the focus as soon as the part is shown
     _drawn: tuple[object, ...] | None = None
 

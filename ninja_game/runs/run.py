@@ -202,7 +202,7 @@ def record_replay(
     author: str = "",
     budget: int = RUN_BUDGET,
 ) -> Replay:
-    """A replay of ours, with its level in it: the result of these inputs in that many ticks (None: as many as inputs).
+    """A replay of ours, with its level in it: the result of these inputs in ``ticks`` ticks (None: as many as inputs).
 
     Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
     can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError

@@ -222,7 +222,7 @@ class Difference:
     field: str  #: its name in the trace
     ours: object
     theirs: object
-    section: str = ""  #: of the specification, for the report
+    section: str = ""  #: section of the specification, for the report
 
     def __str__(self) -> str:
         about = f" (specification: {self.section})" if self.section else ""

@@ -1,4 +1,4 @@
-"""The in-game level string ``<tiles>|<objects>``, read exactly as the game reads it (game.md §5.1-§5.3)."""
+"""N's level string ``<tiles>|<objects>``, read exactly as N reads it (game.md §5.1-§5.3)."""
 
 from __future__ import annotations
 

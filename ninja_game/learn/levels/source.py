@@ -81,7 +81,7 @@ class LevelSource:
 
 
 def word_like(word: str, words: Sequence[str]) -> str:
-    """For error messages: the known words most like an unknown one, else the first."""
+    """The known words most like an unknown one, else the first words; for error messages."""
     return ", ".join(get_close_matches(word, words, 3, 0.5) or words[:3])
 
 

@@ -144,7 +144,7 @@ def clamp(value: float, low: float, high: float) -> float:
 
 
 class Range(NamedTuple):
-    """How a value is written: times a factor, then limited."""
+    """The scaling of a value: it is multiplied by a factor, then clamped."""
 
     factor: float
     lowest: float

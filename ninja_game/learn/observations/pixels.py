@@ -68,7 +68,7 @@ class DrawnObject(NamedTuple):
     slot: int
     size: float
     box: int  #: 1: a square, 0: a disc
-    shade: float  #: its grey, 0 to 255; normalised: 0 to 1
+    shade: float  #: the grey, 0 to 255; normalised: 0 to 1
     moves: int
     x: float
     y: float

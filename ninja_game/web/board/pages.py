@@ -244,7 +244,7 @@ class BoardPages:
         return [("contested", title, cards(caption, shown))] if shown else []
 
     def _spread(self, digest: str, ladder: str) -> str:
-        """How far the second and the fifth run of a ladder are behind in the first category."""
+        """The gaps of the second and the fifth run of a ladder to the first, in the first category."""
         places = zip(("second", "fifth"), self._placed(digest, ladder)[1:5:3], strict=False)
         spread = ", ".join(f"{place} {self.main.difference(row.behind)} behind" for place, row in places)
         return f"{ladder}: {spread}" if spread and len(self.ranking.ladders) > 1 else spread
@@ -349,7 +349,7 @@ class BoardPages:
         return [cells for _, cells in sorted(gains, key=itemgetter(0), reverse=True)]
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
-        """By player the rows of records held, and of records lost."""
+        """The rows of records held, and of records lost, by player."""
         kept: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
