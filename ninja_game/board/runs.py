@@ -125,7 +125,7 @@ class Run(Judged):
     near: str = ""  #: the run that it nearly copies, a sentence
     near_to: RunKey | None = None  #: key of that run, if the runs were compared now
     untrusted: str = ""  #: a sentence, if its player's other runs are from another folder
-    confirmed: bool = False  #: whether the keeper confirmed that it is no copy, and by its player
+    confirmed: bool = False  #: whether the keeper confirmed it: not a copy, and by its player
     again: bool = False  #: it was withdrawn, and is the first of its moment
     taken: str = ""  #: the moment when this board first had it, if ``added`` is the date of an older board
     derived: bool = False  #: near to a run of one of its ``origins``
