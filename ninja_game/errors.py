@@ -1,7 +1,6 @@
 """The errors that this project raises on purpose.
 
-All are NinjaGameErrors: the input or the request was bad, and the message says how to fix it. Any other exception is a
-bug of ours.
+All are NinjaGameErrors: the input or the request was bad, and the message says how to fix it. Any other one is a bug.
 """
 
 from __future__ import annotations

@@ -74,8 +74,7 @@ def ranking_of(
 ) -> tuple[Ranking, Ledger]:
     """The ranking of a folder's runs by the board's categories, and the earlier ledger with the present decisions.
 
-    ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
-    nothing is decided.
+    ``same``: missing ``levels`` and ``rules``, and without decisions ``ledger``, are those of the folder's last board.
     """
     from ninja_game.board.categories import BoardRules, read_rules
     from ninja_game.board.judge import judge

@@ -62,8 +62,7 @@ TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
 class App:
     """The window with its stack of screens.
 
-    ``size``: px of the window; ``window``: a window that is open already. Raises NinjaGameError where there is no
-    display.
+    ``size``: px of the window; ``window``: a window that is open already. Raises NinjaGameError without a display.
     """
 
     def __init__(
@@ -263,8 +262,7 @@ class App:
     def _handle(self, raw: pygame.Event) -> None:
         """Handle events of the window; a screen that waits for a key press gets it before the app's own keys.
 
-        Ignored: the fourth and fifth button, which SDL sends for each notch of the wheel, and the buttons at a mouse's
-        side.
+        Ignored: the buttons 4 and 5, which SDL sends for each notch of the wheel, and the buttons at a mouse's side.
         """
         if raw.type in {pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP} and raw.button > pygame.BUTTON_RIGHT:
             return

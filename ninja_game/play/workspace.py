@@ -185,8 +185,7 @@ class Pane:
 class WorkspaceScreen(MenuScreen):
     """Parts of a window around a document. A key is a command, unless a text field has the focus.
 
-    ``table``: the commands, which ``run`` does. ``parts``: those that are shown; each is drawn when its ``render_key``
-    or its widgets change.
+    ``table``: commands, which ``run`` does. ``parts``: shown ones, drawn when their ``render_key`` or widgets change.
     """
 
     table: ClassVar[CommandTable]

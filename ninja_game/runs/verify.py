@@ -46,8 +46,7 @@ class OutOfRangeError(NinjaGameError):
 class Verdict:
     """The result of a recording, and what it was (docs/verification.md).
 
-    A run whose level does not count is not simulated: its ``outcome`` is "not run", ``possible_by_keyboard`` and
-    ``in_time`` are None.
+    A run whose level does not count is not simulated: outcome "not run", ``possible_by_keyboard``, ``in_time`` None.
     """
 
     file: str

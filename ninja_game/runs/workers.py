@@ -50,8 +50,7 @@ class WorkerLostError(NinjaGameError):
 class Local:
     """Threads or processes of this machine.
 
-    ``count``: jobs that run at a time; ``lost``: raised when a worker died; ``tries``: losses after which a job is
-    not tried again.
+    ``count``: jobs that run at a time; ``lost``: raised when a worker died; ``tries``: most tries of a job.
     """
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool, MemoryError)

@@ -56,8 +56,7 @@ class Theme:
     ) -> pygame.Rect:  # fmt: skip
         """Draw a text (or, without a surface, only measure it); its px rectangle. ``y``: its top in the normal size.
 
-        ``width``, ``height``: the room for it, logical px; without a width up to the window's edge, without a height
-        unlimited.
+        ``width``, ``height``: the room for it, logical px; by default up to the window's edge, and unlimited.
         """
         most = self._room(x, align) if width is None else min(width, self._room(x, align))
         scale = self.largest(text, size, most, bold=bold, height=height)

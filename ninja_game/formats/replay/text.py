@@ -128,8 +128,7 @@ def is_replay(text: str) -> bool:
 def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Replay:
     """Read a replay. ``level``: the level to use if the text names none.
 
-    Raises ReplayError with line and column for every deviation from `docs/replay-format.md`; LevelError for the level
-    inside.
+    Raises ReplayError, with the place, for deviations from docs/replay-format.md; LevelError for the level inside.
     """
     lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
     _check_first_line(lines, file)

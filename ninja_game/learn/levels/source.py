@@ -149,8 +149,7 @@ class Curriculum(LevelSource):
     with more failures are chosen more often, in proportion to 1.1 - rate.
 
     ``difficulties``: one per level; None: those in the table of the game's levels (docs/making-levels.md). ``start``:
-    how many levels are open at first. Raises ArgumentError for anything but a source, and for a level without a known
-    difficulty.
+    number of levels open at first. Raises ArgumentError for anything but a source, and for an unknown difficulty.
     """
 
     def __init__(

@@ -77,8 +77,7 @@ class DrawnObject(NamedTuple):
 class Layers(NamedTuple):
     """Pictures without moving objects. ``changed`` (worlds): the picture must be redrawn; ``pictures``: one per world.
 
-    ``later``: the last object drawn in each cell of each level; ``movers``: numbers of the moving objects, in
-    ``bounds``.
+    ``later``: the last object drawn in each cell of each level; ``movers``, in ``bounds``: numbers of moving objects.
     """
 
     changed: Any

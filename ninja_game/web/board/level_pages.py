@@ -300,8 +300,7 @@ class LevelPages:
     def _where_time_goes(self, runs: Sequence[tuple[str, Run, int]], *, tabled: bool = False) -> Content:
         """The part on which each named run loses most to the first, fastest one, and a chart of its delay on the way.
 
-        None for runs too long to align. The number of a run is that of its colour. ``tabled``: also as a table, at each
-        second of the first.
+        None for runs too long to align. The number of a run is its colour's. ``tabled``: also a table by seconds.
         """
         (fastest, first, _), *others = runs
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
