@@ -1,4 +1,4 @@
-"""What a run costs, and how much work an untrusted one may ask for.
+"""The cost of a run, and the limit of work that an untrusted run may cause.
 
 Work is counted, never timed: ticks, each at a cost that the level fixes. So a verdict depends on the run, the level and
 the rules only, and is the same on every machine and on both memories.
@@ -46,7 +46,7 @@ def tick_cost(level: Level) -> int:
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:
-    """How many ticks of a level a budget pays for: at least one."""
+    """The number of ticks of a level that a budget pays for: at least one."""
     return min(MAX_TICKS, max(1, budget // tick_cost(level)))
 
 

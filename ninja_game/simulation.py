@@ -83,7 +83,7 @@ class EventView:
     name: str
     x: float
     y: float
-    dx: float  #: of the vector, as dy
+    dx: float  #: the vector's x
     dy: float
     object_id: int | None
     cause: str = ""
@@ -167,7 +167,7 @@ class Simulation:
         self._inputs.append(keys)
 
     def kill(self, cause: int, dx: float, dy: float) -> None:
-        """Kill the ninja where it is, as the game does when its time is over or the player gives up.
+        """Kill the ninja where it is, as the game does when its time is over or the player ends the try.
 
         ``cause``: one of those in sim/states.py; (dx, dy): its corpse's impulse, px/tick. It is part of no recording.
         Raises ArgumentError for another cause.
@@ -186,7 +186,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """What came first, "exit" or "dead"; "running" before either."""
+        """The result: "exit" or "dead", whichever came first; "running" before that."""
         return OUTCOME_NAMES[self._worlds.number("outcome")]
 
     @property
@@ -219,7 +219,7 @@ class Simulation:
 
     @property
     def events(self) -> list[EventView]:
-        """What happened in the last tick, in order."""
+        """The events of the last tick, in order."""
         return [_event_view(event) for event in self._worlds.events()]
 
     # --- save-states and digests ---

@@ -46,7 +46,7 @@ def step_world(maps: Sequence[TileMap], number: int, worlds: Sequence[World], in
 
 @kernel
 def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
-    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player gave up."""
+    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player ended the try."""
     n = worlds[index].ninja
     kill(worlds[index], cause, 0, dx, dy, n.x, n.y)
 
@@ -105,8 +105,7 @@ def trace_world(
 
     World ``index`` runs in level ``number``. ``ninja``: TRACED_FLOATS of each tick in turn; ``numbers``: TRACED_INTS.
     ``places``: x, y of each object in ``slots``; ``statuses``: one per object; ``switched``: 1 for a door that is not
-    in its first state. ``events``: MAX_EVENTS numbers per tick, those of the events plus 1, 0 after the last. An empty
-    array records nothing.
+    in its first state. ``events``: MAX_EVENTS per tick, their numbers plus 1, then 0. An empty array records nothing.
     """
     tiles = maps[number]
     w = worlds[index]

@@ -56,11 +56,11 @@ PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compil
 
 @dataclass
 class _Process:
-    """What this process has made and done."""
+    """The state of this process, which chooses the memory of its runs."""
 
     kernels: dict[tuple[Callable[..., Any], bool], Any] = field(default_factory=dict)  #: by kernel and ``checked``
     failures: list[str] = field(default_factory=list)  #: why the compiled memory cannot be used
-    short_work: int = 0  #: of the runs that were short enough for the plain memory; at most PLAIN_WORK
+    short_work: int = 0  #: work of the runs so far that were short enough for the plain memory; at most PLAIN_WORK
 
 
 _PROCESS = _Process()

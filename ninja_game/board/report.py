@@ -259,7 +259,7 @@ def board_news(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
 
 
 def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
-    """A line for each run of a ledger whose file is gone, with the present leader of its level."""
+    """Lines about runs of a ledger whose files are gone, with the present leaders of their levels."""
     judged = ranking.judged
     present = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
@@ -296,7 +296,7 @@ def plain(text: str) -> str:
 
 
 def unnamed(judged: ValidatedRuns) -> str:
-    """How to name the players of runs that do not say who played, such as demos of N; "" where all say it."""
+    """Advice on naming the players of nameless runs, such as demos of N; "" where all runs have a name."""
     nameless = sum(run.player.startswith("unknown (") for run in judged.runs)
     how = "name their players with: ninja-game convert FILE OUT --to replay --author NAME"
     return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""

@@ -125,7 +125,7 @@ class EnvState:
     levels: Indices
     states: Any = field(repr=False)  #: the save-states
     starts: NDArray[np.float64] = field(repr=False)  #: ticks to the exit at the start of each episode
-    facts: NDArray[np.int64] = field(repr=False)  #: its rows are those of ``EnvWorlds``, a column per world
+    facts: NDArray[np.int64] = field(repr=False)  #: the rows of ``EnvWorlds.facts``, a column per world
     owner: tuple[Any, ...] = field(repr=False)
 
 

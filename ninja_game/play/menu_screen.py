@@ -169,8 +169,7 @@ class MenuScreen(Screen):
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
 
-        Up and down stay among the widgets above and below each other; from the last they lead to the first, or, without
-        ``wraps``, nowhere.
+        Up and down stay among the widgets above each other; from the last they lead to the first if ``wraps``.
         """
         focus = self.focus
         if focus is None:

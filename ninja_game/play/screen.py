@@ -13,7 +13,7 @@ from ninja_game.ui.theme import Theme
 
 
 class Host(Protocol):
-    """What every screen needs of its App, which imports this module."""
+    """The part of ``App`` that every screen needs; a protocol, since ``app`` imports this module."""
 
     theme: Theme
     mood: Mood
@@ -94,7 +94,7 @@ class Aside:
 
 
 class ScreenStack:
-    """The open screens. The top one gets the events, and is told by ``enter`` and ``leave`` of the change."""
+    """The open screens. The top one gets the events; ``enter`` and ``leave`` are called as it changes."""
 
     def __init__(self) -> None:
         self._screens: list[BaseScreen] = []

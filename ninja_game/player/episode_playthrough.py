@@ -41,7 +41,7 @@ class EpisodePlaythrough(Playthrough):
         self._passed: Attempt | None = None
 
     def resume(self, replays: Sequence[Replay]) -> None:
-        """Continue after the first levels of the episode, which these runs have passed."""
+        """Continue after the levels that these runs, in the episode's order, have passed."""
         self.replays = list(replays)
         self.position = len(replays)
         self.entry = self.episode.levels[self.position]
@@ -109,7 +109,7 @@ class EpisodePlaythrough(Playthrough):
         return False
 
     def advance(self) -> Navigation:
-        """To the next level with the lifetime at the exit; or, skipping this one, with that at its start."""
+        """Go to the next level with the lifetime at the exit; if this one is skipped, with that at its start."""
         if self._passed is None:
             self._leave_out()
         else:

@@ -139,7 +139,7 @@ class PlayerData:
         return f"Finish {counted(left, 'more level')} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
-        """A sentence: the player's results in a level with this mark; the same on every screen."""
+        """The player's results in a level with this mark, as a sentence; the same on every screen."""
         if mark is None and self.marks.is_passed(entry.digest):
             return progress.HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
@@ -212,7 +212,7 @@ def forget_replay(data: PlayerData, number: int) -> str:
 
 
 def save_work(data: PlayerData, work: StoreWork) -> list[str]:
-    """Save ``work``; its notices, and at the end why it is not on the disk, if so."""
+    """Save ``work``; gives its notices, then the reason if it could not be written to the disk."""
     notices, problem = data.store.save(work)
     return [*notices, *([f"Not saved yet: {problem}"] if problem else [])]
 
@@ -239,7 +239,7 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
 def count_of(
     data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
 ) -> StoreWork:
-    """The counting of an attempt in its present state: passed, killed, or given up; an assisted pass gets its mark."""
+    """The change of the counts by an attempt as it is now: passed, killed or ended; an assisted pass gets its mark."""
     level, gold = entry.digest, attempt.gold
     helped = passed and attempt.assisted and not attempt.practice_mode
     ticks = attempt.simulation.tick if attempt.outcome == "running" else max(attempt.ended_tick, 0)

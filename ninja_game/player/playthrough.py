@@ -38,17 +38,19 @@ class Navigation(Enum):
     """What follows a level."""
 
     SAME_LEVEL = "the level again"
-    NEXT_LEVEL = "the level at which the playthrough now stands"
+    NEXT_LEVEL = "the present level of the playthrough, which has moved on"
     EPISODE_END = "the results of the episode"
     BACK = "no other level: back to where this one was chosen"
 
 
 class Playthrough:
-    """A level by itself, of a file, or of an episode. The subclasses below choose the next level.
+    """The player's way through levels: a base class; each subclass decides which level follows a pass.
 
-    ``entry``: the present level. ``lifetime``: ticks at its start. ``notices``: of what was saved. ``next_label``: the
-    label of the way on from a passed level. ``lead``: inputs that have been played when it waits for the player.
-    ``deaths``: for its texts, how many there were before.
+    - ``entry``: the level that is played now; ``lifetime``: its time limit, in ticks.
+    - ``notices``: sentences about what the last save has won, such as a new best.
+    - ``next_label``: the words on the button that goes on after a pass.
+    - ``lead``: inputs played before the level waits for the player; ``deaths``: deaths before the first try. Both are
+      set only by tests of a level under edit.
     """
 
     next_label = "next level"
@@ -98,7 +100,7 @@ class Playthrough:
 
     @property
     def show_tutorial(self) -> bool:
-        """Whether the keys are explained at its start: to a player without any pass."""
+        """Whether the keys are explained at the level's start: only to a player who has passed no level yet."""
         return not self.data.statistics.played().passes
 
     def ghosts(self) -> list[PacedRun]:
@@ -118,7 +120,7 @@ class Playthrough:
         return self._ghosts[1]
 
     def _raced_medal(self) -> str:
-        """The medal whose pace a ghost has; "" for the player's best."""
+        """The medal at whose pace the ghost runs; "" if the ghost is the player's best run."""
         medal_ghost, pars = self.data.settings.ghost, self.pars
         if medal_ghost == "best" or pars is None:
             return ""
@@ -149,20 +151,20 @@ class Playthrough:
         save_work(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
-        """Called when an attempt is left or restarted, ended or not: counts one that has not."""
+        """Called when an attempt is left or restarted: counts it as ended by the player, unless it was over already."""
         if attempt.outcome == "running" and attempt.simulation.tick:
             # A restart must not wait for the disk.
             self.data.store.defer(count_of(self.data, self.entry, attempt))
 
     def restart(self) -> bool:
-        """Called when the level restarts; whether it is another one, since its file has changed.
+        """Called when the level restarts; whether the level has changed, as its file did.
 
         Raises NinjaGameError or OSError for a changed file that cannot be played; the level stays as it was.
         """
         return False
 
     def advance(self) -> Navigation:
-        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL: this playthrough is at another one now."""
+        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL if ``entry`` is another level now."""
         return Navigation.SAME_LEVEL
 
     @property

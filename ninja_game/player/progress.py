@@ -73,7 +73,7 @@ class PackProgress:
         return CHEATED if episode <= column.reached[0] else LOCKED
 
     def is_beaten(self, episode: int) -> bool:
-        """Whether an episode was passed legitimately; the tenth of a column counts once its last level is reached."""
+        """Whether an episode was passed legitimately; of the tenth in a column it is enough to reach its last level."""
         beaten = self.columns[episode // EPISODES_PER_COLUMN].beaten
         return beaten[0] > episode or (_ends_column(episode) and beaten >= (episode, LEVELS_PER_EPISODE - 1))
 
@@ -104,7 +104,7 @@ class PackProgress:
 
 
 def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
-    """The number of complete columns: all of the ``episodes`` that exist in them are beaten, and there are some."""
+    """The number of complete columns: those with episodes, all of which are beaten. ``episodes``: those that exist."""
     count = 0
     for column in range(MAX_COLUMNS):
         present = [episode for episode in episodes if episode // EPISODES_PER_COLUMN == column]
@@ -113,7 +113,7 @@ def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
 
 
 def unlocked_colours(columns: int) -> int:
-    """The number of colours beyond the first one that so many complete columns unlock."""
+    """The number of colours beyond the first one that this many complete columns unlock."""
     return min(columns, _COLOURS)
 
 
@@ -170,7 +170,7 @@ def _ends_column(episode: int) -> bool:
 
 
 def _advanced(present: Place, episode: int, goal: Place) -> Place:
-    """The farther of two places. Within an episode only from that episode: later levels of earlier ones change nothing.
+    """The farther of two places in a column; a later level counts only in the same episode.
 
     >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0))
     ((0, 3), (3, 0), (1, 0))

@@ -128,7 +128,7 @@ def clearance(run: RunTrace) -> NDArray[np.float64]:
 
 
 def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> NDArray[np.bool_]:
-    """Which points lie within 40 px of a possible place of a hazard, or in the sight of a gun."""
+    """Whether points lie within 40 px of a possible place of a hazard, or in the sight of a gun."""
     by_touch = _RADII.keys() - GUNS.keys()
     moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
@@ -172,7 +172,7 @@ def evenness(points: Points, room: float) -> float | None:
 
 
 def most_bays(level: Level) -> int:
-    """How often the commonest block of 6 x 5 cells occurs without overlaps; nearly full or empty ones do not count."""
+    """The count of the commonest block of 6 x 5 cells, without overlaps; nearly full or empty ones do not count."""
     wide, high = BAY
     where: dict[tuple[int, ...], list[tuple[int, int]]] = {}
     for i in range(COLUMNS - wide + 1):

@@ -18,7 +18,7 @@ from ninja_game.simulation import Simulation
 
 @lru_cache(maxsize=1024)
 def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Finding]:
-    """What is odd about a level: the same in the editor and in its pack.
+    """The findings about a level: the same in the editor and in its pack.
 
     ``inputs``: of a known run, in which messages may be lost. Raises LevelError for messages that cannot be read.
     """

@@ -1,8 +1,7 @@
 """Macros: keys of the ninja for a few ticks. A search chooses macros, not single inputs.
 
 An action is a number: direction + 1 (bits 0-1), mode (bits 2-3), whether the jump key was down before (bit 4), ticks
-played (from bit 8 on). Its inputs can be derived from it. As on a keyboard, the jump key triggers exactly in the tick
-in which it goes down.
+played (from bit 8 on). Its inputs follow from it. As on a keyboard, jump triggers when its key goes down.
 """
 
 from __future__ import annotations

@@ -45,6 +45,8 @@ from ninja_game.search.task import (
 
 
 class _Job:
+    """One of the solver's threads: the searches of its turn, one after the other, with its own memory and seed."""
+
     def __init__(self, state: SharedProgress, number: int) -> None:
         task = state.task
         self.state = state

@@ -167,6 +167,8 @@ class TasScreen(WorkspaceScreen):
 
 
 class Head(TasPart):
+    """The line above the level: the file, its players, the end of the run, and whether all is saved."""
+
     slot = "head"
 
     def render_key(self) -> tuple[object, ...]:
@@ -206,6 +208,8 @@ class Head(TasPart):
 
 
 class Foot(TasPart):
+    """The line below the level: the cursor's tick, the selection, the run beside, and a hint."""
+
     slot = "foot"
 
     def render_key(self) -> tuple[object, ...]:

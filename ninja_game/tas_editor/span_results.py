@@ -257,7 +257,7 @@ class SpanResults:
 
     @property
     def advice(self) -> str:
-        """What the nearest miss lacks, and what to try; "" if there is a result."""
+        """The parts of the goal that the nearest miss lacks, with advice; "" if there is a result."""
         miss = next((result for result in self.better if result.missed_by is not None), None)
         if miss is None:
             return ""

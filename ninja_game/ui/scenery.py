@@ -72,7 +72,7 @@ def scenery_sheet(palette: Palette) -> pygame.Surface:
 
 @lru_cache(maxsize=_SHEETS)
 def grain(palette: Palette, role: str) -> pygame.Surface:
-    """What to subtract from rock in a role's colour, for a palette with scenery, so that the rock's marks are left.
+    """The picture to subtract from rock in a role's colour, for a palette with scenery, so that the rock's marks stay.
 
     It is shared, so never draw on it.
     """

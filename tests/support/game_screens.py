@@ -284,7 +284,7 @@ def _settings(driver: MenuDriver) -> Iterator[str]:
 
 
 def _help(driver: MenuDriver) -> Iterator[str]:
-    """Every page, when what it tells of has just happened."""
+    """Every page, at the moment when its subject has just happened."""
     screen = driver.opened("Help", HelpScreen)
     for index, topic in enumerate(screen.topics):
         screen.list.select(index)
@@ -350,7 +350,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
 
 
 def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
-    """Four messages, as many as a level has, and where two of them are said."""
+    """Four messages, all that a level has, and where two of them are shown."""
     messages = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
     tools = screen.session.tools
     tools.history.change(replace(tools.draft, says=messages))

@@ -1,6 +1,6 @@
 """Draw the pictures of docs/ that show screens of the program: `python3 tools/dev.py docs`.
 
-Those of docs/good-levels.md too, and what is said about them there.
+Those of docs/good-levels.md too, and the text about them there.
 """
 
 from __future__ import annotations

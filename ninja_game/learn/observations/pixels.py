@@ -68,7 +68,7 @@ class DrawnObject(NamedTuple):
     slot: int
     size: float
     box: int  #: 1: a square, 0: a disc
-    shade: float  #: its grey, 0 to 255; normalised: 0 to 1
+    shade: float  #: the grey, 0 to 255; normalised: 0 to 1
     moves: int
     x: float
     y: float
@@ -77,8 +77,7 @@ class DrawnObject(NamedTuple):
 class Layers(NamedTuple):
     """Pictures without moving objects. ``changed`` (worlds): the picture must be redrawn; ``pictures``: one per world.
 
-    ``later``: the last object drawn in each cell of each level; ``movers``: numbers of the moving objects, in
-    ``bounds``.
+    ``later``: the last object drawn in each cell of each level; ``movers``, in ``bounds``: numbers of moving objects.
     """
 
     changed: Any

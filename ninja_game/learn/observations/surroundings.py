@@ -80,8 +80,7 @@ def cached_by_tiles(
 def surface_distances(context: PartContext, number: int, reach: float) -> NDArray[np.float64]:
     """Distance of the centre of every cell (25, 33) from the nearest surface, px, at most ``reach``; inside below 0.
 
-    Outside the world all is solid. The search takes the nearest point of each row near a cell, and then the nearest of
-    these.
+    Outside the world all is solid. The search takes the nearest point of each row near a cell, then the nearest row's.
     """
     spacing = WORLD_WIDTH / GRID_COLUMNS / SAMPLES
     margin = int(reach / spacing)

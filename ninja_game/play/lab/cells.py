@@ -147,6 +147,8 @@ _NINJA: Point = (292.0, 172.0)
 
 
 class RayCast(Figure):
+    """Drag the end of a ray: the cells that it visits, the shapes that are tested, the hit."""
+
     name = "rays"
     start = (330.0, 190.0)
     moves = "end"

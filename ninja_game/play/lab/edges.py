@@ -178,6 +178,8 @@ class Doors(EdgeStates):
 
 
 class WalkingEnemies(Figure):
+    """Open and close doors: drones choose their direction by the edges around their cell."""
+
     name = "drones"
     start = (180.0, 90.0)
     movement = FigureSetting("surface-cw")

@@ -32,7 +32,7 @@ SHAPE_TESTS = ("collide_own_tile", "collide_vertical", "collide_horizontal", "co
 
 
 class Push(NamedTuple):
-    """What happened to a body. ``points``: its positions before, between and after its pushes, px."""
+    """The pushes of a body out of tiles. ``points``: its positions before, between and after them, px."""
 
     points: list[Point]
     calls: list[Call]

@@ -78,7 +78,7 @@ class LevelScreen(Screen):
         return self.play.attempt
 
     def enter(self) -> None:
-        """Uncovered: a pause is over, the clock is reset, and text input is off, so that keys are keys."""
+        """Called when the screen is on top again: ends a pause, resets the clock, turns text input off."""
         if self.phase is Phase.PAUSED:
             self.play.resume()
         self.play.clock.reset()
@@ -268,7 +268,7 @@ class LevelScreen(Screen):
         self._dispatch_action(pressed)
 
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
-        """Do the first thing that the pressed actions mean in this phase.
+        """Do the first of the pressed actions that has an effect in this phase.
 
         After the end, a key for both jump and retry is first a jump that came too late, and then no jump.
         """
@@ -360,7 +360,7 @@ ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
         "back": LevelScreen.back, "quit": LevelScreen.quit, **_END,
     },
 }  # fmt: skip
-"""What each action does in each phase; other actions do nothing."""
+"""The effect of each action by phase; other actions have none."""
 
 
 class PausePanel(Panel):

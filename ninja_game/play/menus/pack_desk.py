@@ -41,7 +41,7 @@ class PackDesk(ThumbnailScreen):
         self.pack: EpisodeSet | None = None  #: the shown one
         self.own_packs: list[EpisodeSet] = []
         self.sets: list[EpisodeSet] = []  #: all packs, and the game's own levels
-        self.tray_key = "none"  #: what is at the right: "none" (levels in no episode), "yours", or the key of a pack
+        self.tray_key = "none"  #: the list at the right: "none" (levels in no episode), "yours", or the key of a pack
         self.moving: PackCell | None = None  #: the cell that gets a new place
         self.new_path: Path | None = None  #: a new pack, to be shown
         self.pack_choice: Widget | None = None

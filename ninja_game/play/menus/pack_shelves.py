@@ -24,6 +24,8 @@ PULL = 6  # px that the mouse moves with its button down before a drag begins
 
 
 class PackCell(NamedTuple):
+    """A cell of the shelves: a level, a free place, or (``head``) the name of an episode before its levels."""
+
     episode: EpisodeIndex | None  #: None: in the row for a new episode
     level: Entry | None = None  #: None: a free place
     head: bool = False
@@ -83,7 +85,7 @@ class Rack(ListView):
         return self.cells[self.index] if self.cells else PackCell(None)
 
     def shift(self, index: int) -> float:
-        """How far a cell moves aside, px."""
+        """The distance by which a cell moves aside, px."""
         line, first = divmod(self.gap, self.columns)
         return _GAP if 0 < first <= index % self.columns and index // self.columns == line else 0.0
 

@@ -39,8 +39,8 @@ class Packer(Aside):
         self.path = Path()  #: the pack that is or was made ready
         self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
-        self._known: dict[Path, set[tuple[str, str]]] = {}  #: by pack the problems not asked about: file and code
-        self._asks_first = True  #: whether what is wrong is asked about before the work
+        self._known: dict[Path, set[tuple[str, str]]] = {}  #: accepted problems (file, code), by pack
+        self._asks_first = True  #: whether problems are asked about before the work
         self._watching: tuple[Screen, Path | None] | None = None  #: the desk, and the pack that it shows
         self.obstacles: Obstacles = {}
         self.steps = Steps(app.player.folder)  #: changes made at the desk
@@ -84,7 +84,7 @@ class Packer(Aside):
         self._known.setdefault(self.path, set()).update((odd.file, odd.code) for odd in problems)
 
     def news(self, problems: Sequence[PackFinding]) -> list[PackFinding]:
-        """Those of the problems with which the player has not gone on yet."""
+        """The problems that the player has not accepted yet."""
         return [odd for odd in problems if (odd.file, odd.code) not in self._known[self.path]]
 
     def search_longer(self, path: Path, missing: tuple[Level, str]) -> None:
@@ -246,7 +246,7 @@ class PackStatus:
         return checked if checked and self.pack and checked.pack is self.pack.pack else None
 
     def to_do(self) -> str:
-        """What Make ready will do; "" for nothing."""
+        """The work that *Make ready* will do, in words; "" for none."""
         levels = self.pack.levels if self.pack else []
         states = [self.state(level) for level in levels]
         to_do = self.present.to_do if self.present else []

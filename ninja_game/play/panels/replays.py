@@ -237,7 +237,7 @@ class ReplaysScreen(MenuScreen):
 
 
 def _looks(row: ReplayRow) -> tuple[object, ...]:
-    """What tells one run in a file from another."""
+    """The words that tell a run of a file from its other runs."""
     return *row[:4], row.source.inputs if isinstance(row.source, Recording) else b""
 
 
@@ -302,6 +302,8 @@ class RecordRow(NamedTuple):
 
 
 class RecordsScreen(MenuScreen):
+    """The player's bests, by episode and level; a click watches the run, and statistics stand beside the list."""
+
     title = "Records"
 
     def __init__(self, app: App) -> None:

@@ -43,6 +43,8 @@ def setting_choice(
 
 
 class SettingsScreen(ThumbnailScreen):
+    """All settings, by page. A change has effect at once."""
+
     title = "Settings"
     music = ""
 

@@ -16,7 +16,7 @@ from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, Column, RollLayout, Ro
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
-_MARGIN = 4  # the rows scroll when the cursor is in the first or the last of so many parts of the roll
+_MARGIN = 4  # the rows scroll when the cursor is in the first or the last of this many parts of the roll
 
 WHEEL_ROWS = 4
 SCROLL_MS = 25  # ms per row of scrolling beyond the edge, for each row (at most four) between the edge and the pointer

@@ -137,7 +137,7 @@ EVENTS = {
     "thwump-landed": EventWord("thwump"),
 }
 EVENTS |= {name: EventWord(name.replace("-", " ")) for name in sorted({*EVENT_NAMES} - EVENTS.keys())}
-"""What happened, the most important first."""
+"""Words for events, the most important event first."""
 
 
 Blit = tuple[pygame.Surface, tuple[int, int]]

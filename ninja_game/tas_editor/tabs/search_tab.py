@@ -79,6 +79,8 @@ class _Preset(NamedTuple):
 
 
 class SearchTab(Tab):
+    """The form of a span search (goal, measure, method), its progress, and its results to put into the run."""
+
     name = "Search"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -86,7 +88,7 @@ class SearchTab(Tab):
         self.span: Span = (0, 0)
         self._first_behind = 0  #: the first tick that follows the goal in the run
         self.span_reason = ""  #: why the span is not the selection
-        self._last_selection: Span = (0, 0)  #: of which the span was made
+        self._last_selection: Span = (0, 0)  #: the selection from which the span was made
         self.order = EARLIEST
         self.rest = False  #: whether what follows the goal is played, too
         self.method = "auto"

@@ -72,6 +72,8 @@ class Tab(TasPart):
 
 
 class LitButton(Button):
+    """A button that is highlighted while ``is_lit()``."""
+
     def __init__(self, text: str, action: Callable[[], object], is_lit: Callable[[], bool], hint: str = "") -> None:
         super().__init__(UNPLACED, text, action, size=SMALL, hint=hint)
         self.is_lit = is_lit

@@ -216,6 +216,8 @@ _STILL = 3.0  # less movement of the mouse than this, px, is a click
 
 
 class ValuesTab(Tab):
+    """Formulas with their values at the cursor's tick, and plots of up to four of them."""
+
     name = "Values"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -297,7 +299,7 @@ class ValuesTab(Tab):
         self._few_lanes(watched)
 
     def _few_lanes(self, latest: Watched) -> None:
-        """If too many values are plotted, hide the first other one."""
+        """Hide the first other plot if there are too many."""
         others = [watched for watched in self.watched if watched.plotted and watched is not latest]
         if latest.plotted and len(others) >= _LANES:
             others[0].plotted = False

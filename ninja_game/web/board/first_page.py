@@ -161,7 +161,7 @@ class FirstPage:
         return [("contested", title, cards(caption, shown))] if shown else []
 
     def _spread(self, digest: str, ladder: str) -> str:
-        """How far the second and the fifth run of a ladder are behind in the first category."""
+        """The gaps of the second and the fifth run of a ladder to the first, in the first category."""
         places = zip(("second", "fifth"), self.parts.placed(digest, ladder)[1:5:3], strict=False)
         spread = ", ".join(f"{place} {self.parts.main.difference(row.behind)} behind" for place, row in places)
         return f"{ladder}: {spread}" if spread and len(self.ranking.ladders) > 1 else spread

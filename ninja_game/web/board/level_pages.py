@@ -34,7 +34,7 @@ ROWS_SHOWN = 10  # rows of a table
 RUNS_SIDE_BY_SIDE = 5
 MIN_SPLITS = 5  # with fewer, splits do not show where time is lost
 MAX_LEADS = 160  # points of a line in a chart
-COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
+COARSE = 4  # one of this many ticks is compared place by place: all would take a third of the time of a board
 MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
 _MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
 MAX_SPLITS = 60  # rows of splits; beyond it gold is left out
@@ -210,7 +210,7 @@ class LevelPages:
         return tag("p", f"{what}: {', '.join(texts)}.") if texts else None
 
     def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
-        """Who leads a table, and a link to it; where all wait for confirmation, how many do."""
+        """The leader of a table, and a link to it; if all runs wait for confirmation, their number."""
         parts, leaderboard, best = self.parts, ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.ranking.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
@@ -310,10 +310,9 @@ class LevelPages:
         return self.parts.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
     def _where_time_goes(self, runs: Sequence[tuple[str, Run, int]], *, tabled: bool = False) -> Content:
-        """Where each named run loses most on the first, the fastest, and a chart of how much later it is on the way.
+        """The part on which each named run loses most to the first, fastest one, and a chart of its delay on the way.
 
-        None for runs too long to align. The number of a run is that of its colour. ``tabled``: also as a table, at each
-        second of the first.
+        None for runs too long to align. The number of a run is its colour's. ``tabled``: also a table by seconds.
         """
         (fastest, first, _), *others = runs
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
@@ -352,7 +351,7 @@ class LevelPages:
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
-    """By how many ticks the other run is later at the places of these ticks; None: it is not near there."""
+    """The ticks by which the other run is later at the places of these ticks; None: it is not near there."""
     partner = aligned(ours[::COARSE], theirs[::COARSE])
     leads: list[int | None] = []
     for tick in ticks:

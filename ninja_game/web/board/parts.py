@@ -1,4 +1,4 @@
-"""What all pages of a board share: links, tables of any length, names."""
+"""Parts of all pages of a board: links, tables of any length, names."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ UNKNOWN_ORIGIN = (
 
 
 class Parts:
-    """What all pages of a board in ``out/board/`` share: their folder, links, tables, and the names of its runs.
+    """The common parts of a board's pages in ``out/board/``: their folder, links, tables, and the names of its runs.
 
     ``up``: the path from a page to that folder, "" or UP; ``address``: of ``out``, if it is known.
     """
@@ -69,7 +69,7 @@ class Parts:
         # Pages of levels and runs have no number that changes them all.
         self.top = [*self.links, *([("waiting.html", f"Waiting: {waiting}")] if waiting else [])]
         self.deeper = [(UP + address, name) for address, name in self.links]
-        self.around = values_digest([self.links, self.site])  #: of the text on every page
+        self.around = values_digest([self.links, self.site])  #: digest of the text on every page
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
     def write_table(
@@ -129,7 +129,7 @@ class Parts:
         return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {label}")
 
     def behind(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
-        """By how much a run is behind the first, or the criterion that decides. ``word``: behind a number."""
+        """The gap of a run to the first, or the criterion that decides. ``word``: written behind a number."""
         if not row.place or row is first:
             return ""
         if row.values == first.values:
@@ -220,7 +220,7 @@ def cards(caption: str, contents: Iterable[Content]) -> Markup:
 
 
 def made_text(run: Run) -> Markup:
-    """How a run was made; a long text is folded."""
+    """The provenance of a run; a long text is folded."""
     if len(run.made) <= LONG_CELL:
         return tag("span", run.made or "unknown", class_="made")
     return tag("details", tag("summary", "Assisted" if run.assisted else "Played"), run.made, class_="note made")

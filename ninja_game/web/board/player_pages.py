@@ -91,7 +91,7 @@ class PlayerPages:
         return [cells for _, cells in sorted(gains, key=itemgetter(0), reverse=True)]
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
-        """By player the rows of records held, and of records lost."""
+        """The rows of records held, and of records lost, by player."""
         kept: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():

@@ -267,7 +267,7 @@ def test_what_is_stopped_while_it_fails_stays_stopped(monkeypatch: pytest.Monkey
     assert (certifier.text, certifier.certification.failed) == ("Stopped", False)
 
 
-def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
+def test_a_door_that_the_certified_run_skips_is_reported() -> None:
     switches = (130.0, 540.0), (300.0, 300.0)
     door = placed(object_of_type("locked door"), 324.0, 540.0, "cell")
     level = ROOM.with_objects((*ROOM.objects, *(with_switch(door, *at, "px") for at in switches))).level

@@ -49,7 +49,7 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
     assert sum(bool(look.sprites) for look in exact.values()) > 500
 
 
-def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Maker) -> None:
+def test_what_is_dragged_goes_to_the_last_place_of_the_mouse(room: Maker) -> None:
     room.editor.session.begin(Source(with_stamp(ROOM, Stamp({}, CROWD))))
     room.frames(3)
     tools = room.editor.session.tools

@@ -398,7 +398,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
 
 
 def certified(room: Maker, late: int) -> None:
-    """Have the solver found a run that begins so many ticks late."""
+    """Have the solver found a run that begins this many ticks late."""
     session = room.editor.session
     inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
     session.certifier.certification = Certification(
@@ -1268,7 +1268,7 @@ def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
     assert (bool(tools.ghost), room.draft == before) == (False, False)
 
 
-def test_a_second_exit_is_told_of(room: Maker) -> None:
+def test_a_second_exit_is_reported(room: Maker) -> None:
     room.press("shift+e")
     room.drag((300, 300))
     assert not room.app.notice, "its switch is still in hand"

@@ -634,7 +634,7 @@ def test_the_page_of_problems_and_the_desk_go_on_from_a_zip(driver: MenuDriver, 
     screen = zipped
     assert driver.app.notice
     driver.choose("Problems")
-    assert driver.app.notice == "", "what is said there goes with the screen"
+    assert driver.app.notice == "", "its notice goes with the screen"
     assert [problem.step for problem in problem_page(driver).problems] == ["Make ready"]
     assert "0 problems" in drawn(driver.app)
     driver.press("escape")
@@ -713,7 +713,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     grid.grid.index = 1
     packs.rename_episode(path, 1, "Wash day")
     go_on.set()
-    driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is said elsewhere")
+    driver.wait(lambda: driver.app.notice == "Laundry is ready to share", "it is shown elsewhere")
     assert (grid.episode and grid.episode.name) == "Wash day", "what is shown there is as new"
     driver.press("escape")
     assert driver.shown(PackScreen).packer.text == (
@@ -925,7 +925,7 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(driver: MenuDr
     driver.shown(LevelScreen)
 
 
-def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
+def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_reported(
     driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     levels, go_on, reports = driver.player.folder / "levels", Event(), list[str]()
@@ -984,7 +984,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(driver: MenuDriver, path: Pat
         driver.choose(answer)
         assert (path.exists(), bool(screen.own_packs)) == (there, there)
     assert Pack(driver.player.folder / "deleted" / "laundry").name == "Laundry"
-    assert not any((screen.packer.text, screen.packer.saved)), "nothing is said of what is gone"
+    assert not any((screen.packer.text, screen.packer.saved)), "no text about what is gone"
     assert "in the folder deleted/laundry now" in driver.app.notice.replace("\\", "/")
 
 
