@@ -267,9 +267,10 @@ class PackDesk(ThumbnailScreen):
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         names = packs.bring([level.named for level in levels], target, self.folder, copy=copy)
         if came := [level for level in levels if copy or Path(level.named.file).parent != target]:
-            done = "Copied" if Path(came[0].named.file).exists() else "Moved"
+            copied = Path(came[0].named.file).exists()
             source = {YOURS: "your folder", GAME: "the game"}.get(came[0].source, shown_text(came[0].source))
-            self.app.notify(f"{done} {called(came)} from {source}. {_BACK}")
+            what = f"{'Copied' if copied else 'Moved'} {called(came)} from {source}"
+            self.app.notify(f"{what}{'' if copied else '; Ctrl copies instead'}. {_BACK}")
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:

@@ -1177,11 +1177,12 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     driver: MenuDriver, path: Path, own: Path, screen: PackScreen
 ) -> None:
     free = screen.shelves.row_area(11)
-    for mods, done in ((pygame.KMOD_LCTRL, "Copied"), (0, "Moved")):
+    texts = {pygame.KMOD_LCTRL: "Copied Mine from your folder", 0: "Moved Mine from your folder; Ctrl copies instead"}
+    for mods, done in texts.items():
         driver.carry(screen.tray.row_area(0), free, drop=False)
-        assert "with Ctrl, a copy" in drawn(driver.app)
+        assert "with Ctrl it is copied" in drawn(driver.app)
         let_go(driver, free, mods)
-        assert driver.app.notice == f"{done} Mine from your folder. Undo, or Ctrl+Z, takes it back"
+        assert driver.app.notice == f"{done}. Undo, or Ctrl+Z, takes it back"
         assert (own.exists(), (path / "mine.txt").exists()) == (bool(mods), True)
         driver.choose("Undo")
         assert (own.exists(), (path / "mine.txt").exists()) == (True, False)
