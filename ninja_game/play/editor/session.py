@@ -284,6 +284,14 @@ class EditorSession:
         source = files.open_source(path)
         return source if source.digest != self.source.digest else None
 
+    def follow_move(self) -> None:
+        """If the level's file was moved, as into a pack, go on with it there. Raises NinjaGameError, OSError."""
+        path = self.source.path
+        if path and not path.exists():
+            paths = (Path(item.named.file) for item in self.app.player.catalogue.single_levels())
+            sources = (files.open_source(file) for file in paths if file.name == path.name and file.is_file())
+            self.source = next((source for source in sources if source.digest == self.source.digest), self.source)
+
     def take(self, source: files.Source) -> None:
         """Load the level from its changed file; this can be undone."""
         self.tools.finish()

@@ -157,6 +157,20 @@ class PackDesk(ThumbnailScreen):
         """Show what can be done with a cell, or with the pack."""
         raise NotImplementedError
 
+    def _open_cell(self, cell: PackCell) -> None:
+        """Edit a level; of several levels, or of another cell, show what can be done."""
+        if cell.level and not self.moving and self.levels_with(cell.level) == [cell.level]:
+            self.edit_level(cell.level)
+        else:
+            self.choose(cell)
+
+    def edit_level(self, level: Entry) -> None:
+        edit = partial(self.edit, level, None)
+        if Path(level.named.file).parent == self.path:
+            self.change_pack(edit, "Edit")
+        else:
+            edit()
+
     def ask_text_for(self, title: str, text: str, action: Callable[[str], object], needed: str = "") -> None:
         """Ask for a text, and change the pack with it. ``needed``: a notice where none is typed; then ask again."""
         step = shown_text(title.partition(":")[0])
@@ -303,7 +317,8 @@ class PackDesk(ThumbnailScreen):
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
             x, y = self.theme.canvas.logical(event.pos)
             if self.pointer is None:
-                dragged.release()
+                if dragged.release():
+                    self._open_cell(dragged.chosen)
             elif (index := self.shelves.at(x, y)) is not None:
                 self.pointer = (x, y)
                 self.drop(self.shelves.cells[index], after=self._is_after(index))
