@@ -13,7 +13,8 @@ from typing import NamedTuple
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import FLIP, MIRROR, Motion
 from ninja_game.editor.palette import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
-from ninja_game.editor.specs import carried, points
+from ninja_game.editor.specs import BODY_PART, carried, grip, points
+from ninja_game.formats.messages import messages_at
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.kinds import DOOR, EXIT, LAUNCH_PAD, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
@@ -240,15 +241,21 @@ def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tupl
 
 
 def nearest_part(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
-    """The part of an object nearest to a point, within ``reach`` px; the newest of equally near ones."""
-    closest: ObjectPart | None = None
-    best = reach * reach
-    for number, spec in enumerate(draft.objects):
-        for part, (px, py) in points(spec).items():
-            distance = (px - x) ** 2 + (py - y) ** 2
-            if distance <= best:
-                closest, best = (number, part), distance
-    return closest
+    """The part of an object nearest to a point, within ``reach`` px; the newest of equally near ones.
+
+    Without one, and without a message in the cell there, the body of the object with the nearest ``grip``.
+    """
+    places = {(number, part): at for number, spec in enumerate(draft.objects) for part, at in points(spec).items()}
+    closest = _closest(places, (x, y), reach)
+    if closest or messages_at(draft.says, cell_of(x, y)):
+        return closest
+    near = [part for part, at in places.items() if part[1] == BODY_PART and dist(at, (x, y)) <= reach + HALF]
+    return _closest({part: at for part in near if (at := grip(draft.objects[part[0]]))}, (x, y), reach)
+
+
+def _closest(places: Mapping[ObjectPart, Point], point: Point, reach: float) -> ObjectPart | None:
+    distance, number, part = min(((dist(at, point), -n, -p) for (n, p), at in places.items()), default=(inf, 0, 0))
+    return (-number, -part) if distance <= reach else None
 
 
 _PIECES = 64  # straight pieces of a curve

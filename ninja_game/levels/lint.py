@@ -79,7 +79,10 @@ class Ground:
         return bool(tiles.SHAPE[self.tiles.ids[cell]] == tiles.FULL)
 
     def can_touch(self, x: float, y: float, radius: float) -> bool:
-        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
+        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px, or as of ``_around``).
+
+        True if uncertain.
+        """
         near = (cell for cell in _cells_around(cell_at(x, y)) if cell in self.cells)
         return not self.is_certain or any(_touches(cell, x, y, radius) for cell in near)
 
@@ -370,6 +373,8 @@ def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield level_finding("in-border") if border else level_finding("in-tile", what=_IN_TILE[spec.kind])
     elif spec.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
         yield level_finding("in-full-tile")
+    elif spec.kind in _TOUCHED:
+        yield from _untouched(ground, x, y, _TOUCHED[spec.kind])
 
 
 _IN_TILE = {
@@ -379,6 +384,19 @@ _IN_TILE = {
     kinds.LAUNCH_PAD: "is inside a tile",
     kinds.LAUNCHER: "is inside a tile: its rockets explode at once",
 }
+
+
+def _around(half: float) -> float:
+    """The radius of a disc that a ninja touches wherever it touches a box, px; it stays in the cells around that."""
+    return sqrt(2.0) * (half + rules.RADIUS) - rules.RADIUS
+
+
+_TOUCHED = {
+    kinds.LAUNCH_PAD: rules.PAD_RADIUS,
+    kinds.BOUNCE_BLOCK: _around(rules.BLOCK_HALF),
+    kinds.ONE_WAY: _around(rules.ONE_WAY_HALF),
+}
+"""Kinds that do nothing where no ninja touches them, with their radius, px. Mines, which decorate, are not named."""
 
 
 def _is_deep(ground: Ground, x: float, y: float) -> bool:

@@ -107,9 +107,7 @@ class MainMenu(MenuScreen):
         def edit(entry: Entry, finding: Finding | None = None) -> None:
             screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
-            screen.commands.edit_entry(entry)
-            if finding:
-                screen.commands.show_finding(finding)
+            screen.commands.edit_entry(entry, finding)
 
         def packs() -> None:
             from ninja_game.play.menus.packs import PackScreen  # it needs NumPy, which takes a moment

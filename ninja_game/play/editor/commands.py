@@ -38,6 +38,7 @@ from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
 from ninja_game.runs.messages import heard
+from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -394,6 +395,7 @@ class EditorCommands(DocumentCommands):
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Save the run that was found", session.keep_certificate, "As a replay among yours"),
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
+            *in_page_or_not([], [("Packs...", self.packs, "Bundle your levels; Back leads here")]),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
         self.app.push(CommandMenu(self.app, "Level", rows, EDITOR_COMMANDS, _IN_MENU, self.run))
@@ -501,13 +503,28 @@ class EditorCommands(DocumentCommands):
         """Show the screen of good levels; each can be opened here."""
         self.app.push(GoodLevelsScreen(self.app, lambda entry: self.unless_unsaved(lambda: self.edit_entry(entry))))
 
-    def edit_entry(self, entry: Entry) -> None:
-        """Edit a level of the browser: the player's in its file; a copy of the game's or of a zip's."""
+    def packs(self) -> None:
+        """Show the player's packs over the editor, which then edits the level that is chosen there."""
+        from ninja_game.play.menus.packs import PackScreen  # it needs NumPy, which takes a moment
+
+        app, editor = self.app, self.app.top
+
+        def edit(entry: Entry, finding: Finding | None = None) -> None:
+            while app.top is not editor:
+                app.pop()
+            self.unless_unsaved(lambda: self.edit_entry(entry, finding))
+
+        app.push(PackScreen(app, edit))
+
+    def edit_entry(self, entry: Entry, finding: Finding | None = None) -> None:
+        """Edit a level of the browser: the player's in its file; a copy of the game's or of a zip's. Show a finding."""
         path = Path(entry.named.file)
         if entry.source != GAME and entry.named.ascii and path.is_file():
             self.open_file(path)
         else:
             self.session.begin(Source(draft_of(entry.named)))
+        if finding:
+            self.show_finding(finding)
 
     def open_file(self, path: Path) -> None:
         self._load(lambda: self.session.begin(open_source(path)))

@@ -78,6 +78,8 @@ class EditorScreen(WorkspaceScreen):
     def enter(self) -> None:
         """The first time, ask about an unsaved level, unless a level was just chosen."""
         super().enter()
+        with self.app.noting():
+            self.session.follow_move()
         self.follow_parts()
         if not self._entered:
             self._entered = True

@@ -192,6 +192,15 @@ class EditorSession:
             return "Certify"
         return certifier.waited if certifier.is_compiling else f"Stop {certifier.waited}"[:9].strip()
 
+    def follow_move(self) -> None:
+        """If the level's file was moved, as into a pack, go on with it there. Raises NinjaGameError, OSError."""
+        path = self.source.path
+        if path and not path.exists():
+            paths = (Path(item.named.file) for item in self.app.player.catalogue.single_levels())
+            sources = (files.open_source(file) for file in paths if file.name == path.name and file.is_file())
+            same = (source for source in sources if source.digest == self.source.digest)
+            self.edited.source = next(same, self.source)
+
     def take(self, source: files.Source) -> None:
         """Load the level from its changed file; this can be undone."""
         self.tools.finish()
