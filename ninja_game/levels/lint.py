@@ -80,7 +80,7 @@ class Ground:
         return bool(tiles.SHAPE[self.level.tiles[cell]] == tiles.FULL)
 
     def can_touch(self, x: float, y: float, radius: float) -> bool:
-        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
+        """Whether a ninja in a reached cell could touch a disc (up to 14 px, or of ``_TOUCHED``); True if uncertain."""
         near = (cell for cell in _cells_around(cell_at(x, y)) if cell in self.cells)
         return not self.is_certain or any(_touches(cell, x, y, radius) for cell in near)
 
@@ -371,6 +371,8 @@ def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield level_finding("in-border") if border else level_finding("in-tile", what=_IN_TILE[spec.kind])
     elif spec.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
         yield level_finding("in-full-tile")
+    elif spec.kind in _TOUCHED:
+        yield from _untouched(ground, x, y, _TOUCHED[spec.kind])
 
 
 _IN_TILE = {
@@ -380,6 +382,12 @@ _IN_TILE = {
     kinds.LAUNCH_PAD: "is inside a tile",
     kinds.LAUNCHER: "is inside a tile: its rockets explode at once",
 }
+
+
+_BOXES = {kinds.BOUNCE_BLOCK: rules.BLOCK_HALF, kinds.ONE_WAY: rules.ONE_WAY_HALF}
+_TOUCHED = {kind: sqrt(2.0) * (half + rules.RADIUS) - rules.RADIUS for kind, half in _BOXES.items()}
+_TOUCHED[kinds.LAUNCH_PAD] = rules.PAD_RADIUS
+"""The radius of discs, px, that a ninja touches if it touches these kinds; else they do nothing. Mines may decorate."""
 
 
 def _is_deep(ground: Ground, x: float, y: float) -> bool:
