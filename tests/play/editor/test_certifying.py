@@ -104,7 +104,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
 def test_the_card_says_how_much_gold_the_run_takes_and_how_hard_it_is(
     room: Maker, monkeypatch: pytest.MonkeyPatch, gold: int, wait: int, text: str
 ) -> None:
-    """``wait``: ticks by which a run with all gold is later."""
+    """With a run that takes all gold ``wait`` ticks later."""
 
     def solve(task: Task, *, on_better: Callable[[Replay], object], **_: object) -> Replay:
         if wait:
