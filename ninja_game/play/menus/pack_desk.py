@@ -314,7 +314,7 @@ class PackDesk(ThumbnailScreen):
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
             x, y = self.theme.canvas.logical(event.pos)
             if self.pointer is None:
-                if dragged.release():
+                if dragged.release() or self.moving:
                     self._open_cell(dragged.chosen)
             elif (index := self.shelves.at(x, y)) is not None:
                 self.pointer = (x, y)
