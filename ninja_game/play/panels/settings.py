@@ -205,7 +205,7 @@ class SettingsScreen(ThumbnailScreen):
         super().draw_frame(surface)
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
-        if self.page == "Picture":
+        if self.pages[self.page] == self._picture:
             # A preview of the palette: the first level of each column.
             episodes = self.player.catalogue.episodes
             firsts = [episodes[episode].levels[0] for episode in sorted(episodes) if episode % EPISODES_PER_COLUMN == 0]
