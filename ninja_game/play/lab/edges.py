@@ -167,12 +167,8 @@ class Doors(EdgeStates):
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         sheet.circle(palette.switch, drone.x, drone.y, DRONE_RADIUS, 2)
         side = _DIRECTIONS.index(self.drone_goes())
-        sheet.arrow(
-            palette.switch,
-            (drone.x, drone.y),
-            (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]),
-            3,
-        )
+        goal = drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]
+        sheet.arrow(palette.switch, (drone.x, drone.y), goal, 3)
         sheet.text("drone", drone.x - 32, drone.y - 14)
         sheet.text("turret", self.turret[0], self.turret[1] - 12)
 

@@ -137,6 +137,9 @@ class SettingsScreen(ThumbnailScreen):
             self._choice("Music in practice", "music_in_practice"),
         ]
 
+    def _overclock(self, gain: float) -> None:
+        self.app.overclock = round(gain)
+
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
             self._choice("Practice mode", "practice", hint=PRACTICE_HINT),
@@ -146,16 +149,10 @@ class SettingsScreen(ThumbnailScreen):
             self._choice("Show keys in play", "show_keys"),
         ]
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
-            widgets.append(
-                Slider(
-                    self._area(),
-                    "Overclock, ms",
-                    (0, FASTEST_TICK_GAIN, 1),
-                    lambda: self.app.overclock,
-                    lambda value: setattr(self.app, "overclock", round(value)),
-                    hint="Speeds the game up until you quit",
-                )
-            )
+            span = 0, FASTEST_TICK_GAIN, 1
+            faster = Slider(self._area(), "Overclock, ms", span, lambda: self.app.overclock, self._overclock)
+            faster.hint = "Speeds the game up until you quit"
+            widgets.append(faster)
         folder = short_path(self.player.folder / LEVELS)
         texts = ("Put level files into this folder, and they appear under Levels:", folder)
         below = _TOP + _STEP * 9
