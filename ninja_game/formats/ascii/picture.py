@@ -206,12 +206,9 @@ def merge_picture_and_list(
             continue
         if cell in conflicts:
             placed, wanted = conflicts[cell]
-            problems.add(
-                f"picture and list disagree at {cell[0]},{cell[1]}",
-                *picture.where(cell),
-                found=_named(symbol),
-                expected=f"{_named(wanted)}, as line {placed.line} says",
-            )
+            what = f"picture and list disagree at {cell[0]},{cell[1]}"
+            expected = f"{_named(wanted)}, as line {placed.line} says"
+            problems.add(what, *picture.where(cell), found=_named(symbol), expected=expected)
         elif symbol.values is None:
             example = _NEEDED_LINES[symbol.char].format(cell=f"{cell[0]},{cell[1]}")
             problems.add(

@@ -81,12 +81,8 @@ class EdgeStates(Figure):
         neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
         face = tiles.FACE[4 * tile + self.side]
         other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
-        states = [
-            self.world.edges[4 * cell + side]
-            for cell in range(len(tiles.EXISTS))
-            if tiles.EXISTS[cell]
-            for side in range(4)
-        ]
+        cells = [cell for cell, exists in enumerate(tiles.EXISTS) if exists]
+        states = [self.world.edges[4 * cell + side] for cell in cells for side in range(4)]
         return [
             ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
             ("1. its own face there", FACES[face]),

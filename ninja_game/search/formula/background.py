@@ -146,7 +146,8 @@ class RunSearch(SpanSearch):
         from ninja_game.search.task import Task
 
         super().__init__(task)
-        threads, first = min(jobs or cores(), MAX_JOBS), fit_inputs(task.inputs, task.length)
+        threads = min(jobs or cores(), MAX_JOBS)
+        first = fit_inputs(task.inputs, task.length)
         self._wanted = Task(task.level, task.body, gold, _MAX_SECONDS, jobs=threads, first=first, others=task.others)
         self._reaches = False
         self._lock = Lock()
