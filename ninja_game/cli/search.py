@@ -219,17 +219,8 @@ def search(
     )
     named = partial(improved_replay, recording=recording, command="search")
     save = saver(output, [Path(recording.file)], named) if output else None
-    task = SpanTask(
-        recording.level,
-        recording.inputs,
-        first,
-        last,
-        goal=goal,
-        measure=maximise or minimise,
-        least=bool(minimise),
-        rest=rest,
-        body=recording.body,
-    )
+    level, inputs, measure = recording.level, recording.inputs, maximise or minimise
+    task = SpanTask(level, inputs, first, last, goal, measure, least=bool(minimise), rest=rest, body=recording.body)
     with progress_line() as shown:
         report = _SpanReport(task, seconds, save, shown.say)
         found = search_span(

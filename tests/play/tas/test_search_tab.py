@@ -14,7 +14,7 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.play.menu_screen import PANEL_WIDTH, Menu
-from ninja_game.runs.compare import RunSplits, run_splits
+from ninja_game.runs.splits import RunSplits, run_splits
 from ninja_game.search import solve as solve_module
 from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula import background
