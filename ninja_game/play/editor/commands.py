@@ -9,16 +9,15 @@ from pathlib import Path
 
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.examination import UNREACHABLE_CODES
-from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
+from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
 from ninja_game.editor.palette import SNAPS
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
+from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.episodes import GAME, Entry, Mood
@@ -30,9 +29,9 @@ from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
-from ninja_game.play.editor.stamp_menu import StampMenu
+from ninja_game.play.editor.stamp_menu import StampCommands
 from ninja_game.play.editor.view import DOUBLE, EditorView
-from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
+from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
@@ -40,7 +39,7 @@ from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommand
 from ninja_game.runs.messages import heard
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
-from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import next_option
@@ -64,8 +63,6 @@ NAMELESS = "My level"  # the name of a level to which its maker gave none
 _IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "playtest", "certify"}
 
 IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")
-
-STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
 
 _MIRRORS = {
     "off": "off",
@@ -91,6 +88,7 @@ class EditorCommands(DocumentCommands):
         self.session = session
         self.view = view
         self._palette = palette
+        self._stamps = StampCommands(app, session.tools)
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
@@ -125,7 +123,7 @@ class EditorCommands(DocumentCommands):
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
-            "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
+            "stamps": self._stamps.choose, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": tools.choose_all, "delete": tools.delete,
             "swap": lambda: tools.pick_up(tools.brush.tile if tools.brush.draws_objects else tools.brush.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
@@ -160,56 +158,6 @@ class EditorCommands(DocumentCommands):
         text = change_text(before, after)
         if text or always:
             self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
-
-    def stamps(self) -> None:
-        """Choose a stamp to paste, or keep what is selected, or was copied, as one."""
-        tools = self.session.tools
-        tools.copy()
-        keep = partial(self._keep_stamp, tools.clipboard) if tools.clipboard else None
-        files = sorted(self._stamps.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
-        rows: list[MenuRow] = [
-            (path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files
-        ]
-        rows.append(("Keep as a stamp...", keep, "What is selected; without that, what was copied last"))
-        change: list[MenuRow] = [(path.stem, partial(self._change_stamp, path), short_path(path)) for path in files]
-        if files:
-            menu = StampMenu(self.app, "Rename or delete which stamp?", files, [*change, CANCEL])
-            rows.append(("Rename or delete...", partial(self.app.push, menu), ""))
-        self.app.push(StampMenu(self.app, "Stamps", files, [*rows, CANCEL]))
-
-    def _change_stamp(self, path: Path) -> None:
-        def rename(name: str) -> None:
-            if (stem := file_stem(name.strip(), path.stem)) != path.stem:
-                path.rename(free_path(self._stamps, stem, SUFFIX))
-
-        app, load = self.app, self._load
-        ask = partial(ask_text, app, f"Rename {path.stem}", "Name", path.stem, "Rename")
-        delete = Question(
-            app,
-            f"Delete the stamp {path.stem}?",
-            "Delete it",
-            partial(load, partial(path.unlink, missing_ok=True)),
-            short_path(path),
-        )
-        rows: list[MenuRow] = [
-            ("Rename...", lambda: ask(lambda name: load(partial(rename, name)), 40), ""),
-            ("Delete...", partial(app.push, delete), ""),
-        ]
-        app.push(Menu(app, path.stem, [*rows, CANCEL]))
-
-    def _take_stamp(self, path: Path) -> None:
-        self.session.tools.clipboard = level_stamp(open_source(path).draft)
-        self.session.tools.paste()
-
-    def _keep_stamp(self, stamp: Stamp) -> None:
-        def keep(name: str) -> None:
-            path = free_path(self._stamps, file_stem(name.strip(), "stamp"), SUFFIX)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            save_draft(Source(Draft(Level())), with_stamp(Draft(Level(), name), stamp), path)
-            self.app.notify(f"Kept as a stamp: {path.stem}")
-
-        prompt, load = "Name of the stamp", self._load
-        ask_text(self.app, "Keep as a stamp", prompt, "", "Keep", lambda name: load(partial(keep, name)), 40)
 
     def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
@@ -397,10 +345,6 @@ class EditorCommands(DocumentCommands):
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
         self.app.push(CommandMenu(self.app, "Level", rows, EDITOR_COMMANDS, _IN_MENU, self.run))
-
-    @property
-    def _stamps(self) -> Path:
-        return self.app.player.folder / STAMPS
 
     @property
     def _levels(self) -> Path:
