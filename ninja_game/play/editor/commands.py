@@ -6,6 +6,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.examination import UNREACHABLE_CODES
@@ -60,9 +61,12 @@ what is selected."""
 
 
 NAMELESS = "My level"  # the name of a level to which its maker gave none
+
 _IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "playtest", "certify"}
+"""The commands whose keys work in the File menu."""
 
 IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")
+"""The commands in the menu More."""
 
 _MIRRORS = {
     "off": "off",
@@ -80,8 +84,15 @@ def _shown(shown: bool) -> str:
     return "shown" if shown else "hidden"
 
 
+class Steps(NamedTuple):
+    """What a command goes through, one step each time. ``actions``: by the steps' names; ``now``: the present step."""
+
+    actions: dict[str, Action]
+    now: str
+
+
 class EditorCommands(DocumentCommands):
-    """Runs commands by name (``EDITOR_COMMANDS``)."""
+    """Does the commands of ``EDITOR_COMMANDS`` by their names."""
 
     def __init__(self, app: App, session: EditorSession, view: EditorView, palette: PaletteView) -> None:
         super().__init__(app, session)
@@ -92,25 +103,25 @@ class EditorCommands(DocumentCommands):
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
-        tools, steps = self.session.tools, self._steps()
+        tools = self.session.tools
         if name in TOOLS:
             tools.finish()
             tools.tool = name
-        elif name in steps:
-            actions, now = steps[name]
-            actions[next_option(list(actions), now)]()
+        elif steps := self._steps().get(name):
+            steps.actions[next_option(list(steps.actions), steps.now)]()
         else:
             self._table()[name]()
 
-    def _steps(self) -> dict[str, tuple[dict[str, Action], str]]:
-        """The steps of the commands that go on to the next one, by their names, and the present step."""
-        tools, view, brush, mirrors = self.session.tools, self.view, self.session.tools.brush, _MIRRORS
+    def _steps(self) -> dict[str, Steps]:
+        """The steps of the commands that have several, by the commands' names."""
+        tools, view, brush = self.session.tools, self.view, self.session.tools.brush
+        mirror = _MIRRORS[brush.symmetry]
         return {
-            "next_tool": ({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
-            "takes": ({what: partial(tools.take, what) for what in TAKES}, tools.takes),
-            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[brush.symmetry]),
-            "grid": ({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
-            "snap_next": ({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
+            "next_tool": Steps({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
+            "takes": Steps({what: partial(tools.take, what) for what in TAKES}, tools.takes),
+            "symmetry": Steps({_MIRRORS[name]: partial(self.mirror, name) for name in _MIRRORS}, mirror),
+            "grid": Steps({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
+            "snap_next": Steps({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
         }
 
     def _table(self) -> dict[str, Action]:
@@ -161,10 +172,9 @@ class EditorCommands(DocumentCommands):
 
     def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
-        if name in (steps := self._steps()):
-            actions, now = steps[name]
-            rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in actions.items()]
-            self.app.push(DropDown(self.app, button, rows, at=list(actions).index(now)))
+        if steps := self._steps().get(name):
+            rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in steps.actions.items()]
+            self.app.push(DropDown(self.app, button, rows, at=list(steps.actions).index(steps.now)))
         else:
             self.run(name)
 
@@ -262,11 +272,8 @@ class EditorCommands(DocumentCommands):
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
-        runs = [
-            session.certifying_inputs,
-            *(run.inputs for run in session.playtests.shown[-1:] if run.level == level),
-            waits,
-        ]
+        last = [playtest.inputs for playtest in session.playtests.shown[-1:] if playtest.level == level]
+        runs = [session.certifying_inputs, *last, waits]
         with suppress(LevelError):  # without a ninja, which the playtest reports
             moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
@@ -297,7 +304,7 @@ class EditorCommands(DocumentCommands):
         else:
             start()
 
-    # --- files ---
+    # --- menus ---
 
     def menu(self) -> None:
         """Cancel one thing: a drawing, the selection, a tool. Show that the next press opens the menu."""
@@ -344,7 +351,9 @@ class EditorCommands(DocumentCommands):
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(CommandMenu(self.app, "Level", rows, EDITOR_COMMANDS, _IN_MENU, self.run))
+        self.app.push(CommandMenu(self.app, "Level", rows, table=EDITOR_COMMANDS, names=_IN_MENU, run=self.run))
+
+    # --- files ---
 
     @property
     def _levels(self) -> Path:

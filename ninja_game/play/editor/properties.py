@@ -135,7 +135,7 @@ def _of_several(view: EditorView) -> tuple[str, list[_RowMaker]]:
     cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
     rows: list[_RowMaker] = [_choice(tools, name) for name in _common(tools.subjects)]
     rows.append(_turning(view))
-    rows += [_arranging(tools, head) for head in _ARRANGING]
+    rows += [_align_buttons(tools, head) for head in _ARRANGING]
     remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
     last: list[MenuRow] = [
         ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
@@ -183,7 +183,7 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 """Rows of buttons that align objects, with axis and share of ``stamp.arranged``."""
 
 
-def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
+def _align_buttons(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
         able, verb = most > 1 + (share is None), head or "Align"
