@@ -65,8 +65,7 @@ NAMELESS = "My level"  # the name of a level to which its maker gave none
 _IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "playtest", "certify"}
 """The commands whose keys work in the File menu."""
 
-IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")
-"""The commands in the menu More."""
+IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")  # the commands in the menu More
 
 _MIRRORS = {
     "off": "off",

@@ -229,11 +229,13 @@ class EditorView(Pane):
     def __init__(self, app: App, session: EditorSession) -> None:
         self.app = app
         self.session = session
-        self.hovering = self.by_keys = False  #: whether the pointer is shown; whether keys or a pad moved it last
+        self.hovering = False  #: whether the pointer is shown
+        self.by_keys = False  #: whether keys or a pad moved it last
         self._hint = Hint(session.draft, "")
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = self.playtest_map = False  #: whether a list replaces the palette; whether that map is shown
+        self.listing = False  #: whether the list of objects replaces the palette
+        self.playtest_map = False  #: whether the map of playtests is shown
         #: gets the cell of the next press, which then draws nothing; None: cancelled
         self.taker: Callable[[Cell | None], None] | None = None
         session.tools.gave_up = self._tell_given_up
