@@ -54,6 +54,7 @@ def over_budget(level: Level, ticks: int, budget: int) -> BudgetError:
     """The error for a run that is not over after all the ticks that its budget pays for."""
     cost = tick_cost(level)
     found = f"{ticks:,} ticks of {cost:,} each, not over after {affordable_ticks(level, budget):,}"
-    hint, option = "shorten its inputs if they go on after its end", f"--budget {ticks * cost} lets it run"
+    hint = "shorten its inputs if they go on after its end"
+    option = f"--budget {ticks * cost} lets it run"
     expected = f"at most {budget:,}"
     return BudgetError("the run costs too much work", found=found, expected=expected, hint=hint, option=option)

@@ -24,7 +24,6 @@ from functools import cached_property
 from typing import Any
 
 from ninja_game.backend.memories import open_worlds
-from ninja_game.backend.plain import tile_map
 from ninja_game.backend.worlds import MemoryName
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
@@ -32,6 +31,7 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
+from ninja_game.sim.loader import tile_map
 from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 

@@ -7,7 +7,7 @@ usage: python3 tools/dev.py COMMAND ...
   run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
   test             `lint`, then the tests; `test --all`: those too that are slow and rarely fail; with words of your own
                    (a file, `-k NAME`) pytest alone, with them
-  lint             style, format, types, import contract; `lint --fix` mends what a program can mend
+  lint             style, format, types, import contract, names; `lint --fix` mends what a program can mend
   benchmark        measure how fast the world is on this machine; `benchmark --help` lists options; `benchmark page`:
                    another script of benchmarks/
   golden           write the golden files of the tests again, after a change of the rules that is meant
@@ -56,7 +56,7 @@ PROGRAMS = {
     "change-rules": ("tools.breaks", "--rules"),
 }
 DRAWINGS = ("draw.how_it_works", "draw.screens")
-LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
+LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",), ("python", "-m", "tools.lint"))
 FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
 CORES = str(min(4, 1 + (os.cpu_count() or 1)))
 

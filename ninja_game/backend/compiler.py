@@ -75,7 +75,8 @@ class Compiler:
 
     def _one_for_all_integers(self, compiled: Any) -> Any:
         """Make a function take any integer as int64: Numba would compile it again for each type and each constant."""
-        template, types = getattr(compiled, "get_call_template", None), self._types
+        template = getattr(compiled, "get_call_template", None)
+        types = self._types
         if template is None:  # private in Numba: without it everything works, but compiles longer
             return compiled
 

@@ -144,7 +144,8 @@ def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
     """Count a run that begins now, or let a process compile its missing kernels; whether it is on the plain memory."""
     if not _has_choice(memory, checked=checked):
         return False
-    little, missing = _PROCESS.short_work + work <= PLAIN_WORK, warm_up(checked=checked)
+    little = _PROCESS.short_work + work <= PLAIN_WORK
+    missing = warm_up(checked=checked)
     _PROCESS.short_work += work if little and not missing else 0
     return little or missing
 

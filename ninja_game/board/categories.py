@@ -158,7 +158,9 @@ def read_rules(path: Path) -> BoardRules:
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
     others = dict(table)
-    title, unknown, tables = others.pop("name", ""), others.pop("unknown", PLAYED), others.pop("category", None)
+    title = others.pop("name", "")
+    unknown = others.pop("unknown", PLAYED)
+    tables = others.pop("category", None)
     if not isinstance(title, str) or len(title) > _MAX_NAME:
         raise FormatError("not the name of a board", file, expected=f"a text of at most {_MAX_NAME} characters")
     if unknown not in (PLAYED, ASSISTED):

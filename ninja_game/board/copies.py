@@ -159,7 +159,8 @@ class Courses:
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], Near]:
         """A function that gives the runs near to ``course`` among some columns, which truth values choose."""
         columns = len(self.numbers)
-        places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
+        places = self._places.counts(course.places, columns)
+        presses = np.zeros(columns, np.int64)
         for shift in range(-SHIFTED, SHIFTED + 1):
             moved = (press + 8 * shift for press in course.presses)
             presses = np.maximum(presses, self._presses.counts(moved, columns))
@@ -180,7 +181,8 @@ class Courses:
                 if pressed[first]:
                     return Near(numbers, text, by_inputs=True)
             # Aligning is slow: only where the other tests do not decide.
-            strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
+            strokes = self._strokes.counts(course.strokes, columns)
+            ticks = len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
             aligned = sorted(pair for pair in shared if pair[0])
@@ -240,7 +242,8 @@ def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[R
             first = next((copy for copy in same if copy.player == run.player), same[0])
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
-            why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
+            why = f"{what} {first.file}"
+            kind = OWN if run.episode and first.player == run.player else "copy"
             copies.append(run.rejected(kind, why, first.key))
     together: dict[RunKey, str] = {}
     for same in ways.values():
@@ -296,7 +299,8 @@ class _Compared:
 
     def begin_moment(self) -> None:
         """All runs added so far are of earlier moments."""
-        self._key, self._earlier = values_digest([self._key]), len(self._runs)
+        self._key = values_digest([self._key])
+        self._earlier = len(self._runs)
 
     def add(self, run: Run) -> None:
         self._key = self._key_of(run)

@@ -78,7 +78,8 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
         if old["way"] and key not in counting and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
-    ways, names = {(run.level, run.way) for run in judged.runs}, (*_FIELDS["withdrawn"], *_KEPT)
+    ways = {(run.level, run.way) for run in judged.runs}
+    names = (*_FIELDS["withdrawn"], *_KEPT)
     withdrawn = sorted((way, row) for way, row in before.owners.items() if way not in ways)
     data["withdrawn"] = [{name: row[name] for name in names if name in row} for _, row in withdrawn]
     data["decisions"] = [decision._asdict() for _, decision in sorted(before.decisions.items())]

@@ -325,14 +325,14 @@ class App:
         self,
         title: str,
         suffix: str,
-        content: str | Callable[[Path], object],
+        content: str | bytes | Callable[[Path], object],
         *,
         first: int = 0,
         over: Path | None = None,
     ) -> Path | None:
         """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, or a function that writes to the path. ``first``: as of ``export_path``.
+        ``content``: text, bytes, or a function that writes to the path. ``first``: as of ``export_path``.
         ``over``: an earlier export, which is replaced.
         """
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -15,7 +16,17 @@ from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import LOCKED, UNLOCKED, LevelMarks, Mark, PackProgress, Place, has_all_gold, medal_of
+from ninja_game.player.progress import (
+    LOCKED,
+    UNLOCKED,
+    LevelMarks,
+    Mark,
+    PackProgress,
+    Place,
+    has_all_gold,
+    medal_of,
+    save_unfinished,
+)
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, StoreWork
@@ -62,7 +73,8 @@ class PlayerData:
 
     def newcomer(self) -> PlayerData:
         """Data of a new player without a name, with the same levels; results are not saved."""
-        store, settings = Store(None, "this is a preview"), self.settings.changed(name="")
+        store = Store(None, "this is a preview")
+        settings = self.settings.changed(name="")
         other = PlayerData(self.folder, store=store, catalogue=self.catalogue, settings=settings)
         other._is_maker = False
         return other
@@ -239,3 +251,28 @@ def count_of(
         return []
 
     return work
+
+
+def note_progress(
+    data: PlayerData,
+    episode: Episode,
+    position: int,
+    replays: Sequence[Replay] = (),
+    *,
+    legitimate: bool = True,
+    kept: bool = True,
+) -> None:
+    """A level of an episode was passed or skipped: unlock the next one, and save it as the place to continue.
+
+    ``replays``: those of the episode up to it, if no level was skipped. Raises sqlite3.Error.
+    """
+    following = data.catalogue.following(episode)
+    goal = following.number if following else None
+    levels = len(episode.levels)
+    data.progress_in(episode.pack).level_passed(
+        (episode.number, position), levels=levels, following=goal, legitimate=legitimate
+    )
+    if legitimate and kept and position < levels - 1:
+        save_unfinished(data.store, episode.key, replays)
+    elif legitimate and kept:
+        save_unfinished(data.store, following.key if following else "")

@@ -1,13 +1,19 @@
-"""Progress: columns of episodes and what they unlock; marks, medals, all gold (game.md §2.1, §8)."""
+"""Progress: columns of episodes and what they unlock; the episode to continue; marks, medals, all gold.
+
+game.md §2.1, §8.
+"""
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple
 
+from ninja_game.errors import DAMAGED
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MAX_COLUMNS
 from ninja_game.formats.pack.pars import MEDALS, Pars
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.store import Store
@@ -17,7 +23,7 @@ _COLOURS = 9  # colours of the ninja beyond the first one; each complete column 
 OVERCLOCK_COLUMNS = 6
 FASTEST_TICK_GAIN = 10  # ms that overclock can take off a tick's 25
 
-_ANNOUNCED = "columns announced"
+_ANNOUNCED, _PLACE = "columns announced", "episode left half-way"  # names of facts in the store
 
 UNLOCKED, CHEATED, LOCKED = "unlocked", "cheated", "locked"
 
@@ -135,6 +141,24 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
     with store.change() as db:
         db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_ANNOUNCED, str(columns)))
     return messages
+
+
+def save_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
+    """Save the episode to continue, "" for none, and its runs. Raises sqlite3.Error."""
+    with store.change() as db:
+        value = json.dumps([key, *map(write_replay, replays)])
+        db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
+
+
+def load_unfinished(store: Store) -> tuple[str, list[Replay]]:
+    """The key of the episode to continue, and its runs; ("", []) without one, or for a damaged one."""
+    for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
+        try:
+            key, *texts = json.loads(value)
+            return str(key), [parse_replay(text) for text in texts]
+        except DAMAGED:
+            break
+    return "", []
 
 
 def is_place(place: Place, column: int) -> bool:

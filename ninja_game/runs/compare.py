@@ -145,7 +145,8 @@ def _spans(world: Worlds, keys: bytes, events: Sequence[str]) -> list[bytes]:
     """
     ends = list(range(1, len(keys)))
     if world.name == "compiled":
-        state, numbers = world.save(), [number for number, name in enumerate(EVENT_NAMES, 1) if name in events]
+        state = world.save()
+        numbers = [number for number, name in enumerate(EVENT_NAMES, 1) if name in events]
         happened = np.frombuffer(world.trace(keys, (), events=True).events, np.uint8).reshape(-1, MAX_EVENTS)
         world.restore(state)
         ends = (np.flatnonzero(np.isin(happened[:-1], numbers).any(axis=1)) + 1).tolist()

@@ -148,7 +148,7 @@ def lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
     for dx, dy in [(1, 0), (-1, 0)] if is_guard else [_DIRECTIONS[int(record.values[2]) % 4]]:
         for step in range(2 * COLUMNS):
             place = x + dx * step * CELL / 2, y + dy * step * CELL / 2
-            if solid_at(ground.level, *place):
+            if solid_at(ground.tiles, *place):
                 break
             yield place
 
@@ -157,7 +157,7 @@ def in_sight(ground: Ground, gun: Sequence[float], point: Sequence[float]) -> bo
     """Whether no rock lies between two places."""
     steps = max(1, int(hypot(point[0] - gun[0], point[1] - gun[1]) / 6))
     return not any(
-        solid_at(ground.level, gun[0] + (point[0] - gun[0]) * k / steps, gun[1] + (point[1] - gun[1]) * k / steps)
+        solid_at(ground.tiles, gun[0] + (point[0] - gun[0]) * k / steps, gun[1] + (point[1] - gun[1]) * k / steps)
         for k in range(1, steps)
     )
 

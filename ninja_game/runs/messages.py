@@ -85,7 +85,7 @@ class MessageQueue:
         helps: bool = False,
         teaches: bool = False,
     ) -> None:
-        self._messages, self._map = messages, tiles or TileMap()
+        self._messages, self._tiles = messages, tiles or TileMap()
         self.helps = helps
         self._again = self._advises = helps and not (teaches and messages)
         self._shown: set[LevelMessage] = set()
@@ -207,7 +207,7 @@ class MessageQueue:
         if not (_is_near(world, message) and (place := message.place)):
             return False
         ninja = world.ninja.x, world.ninja.y
-        return place == ninja or solid_at(self._map, *place) or sees(self._map, world, *place, *ninja)[0]
+        return place == ninja or solid_at(self._tiles, *place) or sees(self._tiles, world, *place, *ninja)[0]
 
     def _slipped(self, world: World) -> float:
         """At a landing that calls for advice on climbing, the x of the wall's normal; else 0."""

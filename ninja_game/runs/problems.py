@@ -31,7 +31,8 @@ def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Fi
 @lru_cache(maxsize=300)
 def _unlocked(level: Level, inputs: bytes, body: Body) -> set[tuple[float, float]]:
     """The places of the switches by which these inputs open doors, px. Cached, since the window's thread asks again."""
-    run, opened = Simulation(level, body=body), set[tuple[float, float]]()
+    run = Simulation(level, body=body)
+    opened = set[tuple[float, float]]()
     for keys in inputs:
         run.step_keys(keys)
         events = run.world.events[: run.world.event_count]

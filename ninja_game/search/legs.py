@@ -75,6 +75,17 @@ class Frontier:
         return self.taken.bit_count()
 
 
+def put_checkpoint(
+    frontiers: dict[tuple[int, int], Frontier], gold: int, checkpoint: Checkpoint, tour: list[int], width: int
+) -> Frontier:
+    """Put a checkpoint into its frontier, a new one with the rest of the tour where there is none; gives it."""
+    key = (gold, checkpoint.mask)
+    if key not in frontiers:
+        frontiers[key] = Frontier(*key, tour=[piece for piece in tour if not checkpoint.taken >> piece & 1])
+    frontiers[key].add(checkpoint, width)
+    return frontiers[key]
+
+
 def piece_numbers(taken: int) -> Iterator[int]:
     """The numbers of the pieces in a set of bits."""
     return (k for k in range(taken.bit_length()) if taken >> k & 1)

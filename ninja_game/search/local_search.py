@@ -178,7 +178,7 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
     for k in range(first * CHECKPOINT, limit):
         if k % CHECKPOINT == 0:
             copy_words(runs.checkpoints[k // CHECKPOINT], start.scratch)
-        step(start.levels[0], w, with_press_bit(runs.current[k], w.ninja.jump_held))
+        step(start.maps[0], w, with_press_bit(runs.current[k], w.ninja.jump_held))
         runs.path[k, 0] = w.ninja.x
         runs.path[k, 1] = w.ninja.y
         if w.outcome != OUTCOME_RUNNING:
@@ -200,7 +200,7 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
     while runs.trial[differs - 1] == runs.current[differs - 1]:
         differs -= 1
     for k in range(first, limit):
-        step(start.levels[0], w, with_press_bit(runs.trial[k], w.ninja.jump_held))
+        step(start.maps[0], w, with_press_bit(runs.trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
             return k + 1, score_of(w) if w.outcome == OUTCOME_EXIT and w.gold >= gold else UNREACHED
         if (k + 1) % CHECKPOINT == 0:

@@ -132,7 +132,7 @@ class Start(NamedTuple):
     The words are views of the states of all three worlds.
     """
 
-    levels: Any
+    maps: Any  #: the one level as kernels take it
     worlds: Any  #: the two worlds: the expanded node, scratch
     initial: StateWords  #: words of the level at tick 0, which never change
     node: StateWords  #: words of the expanded node
@@ -167,12 +167,12 @@ def ticks_at_once(start: Start) -> int:
 
 def open_start(level: Level, *, box: bool) -> Start:
     """Load a level. Raises LevelError if it cannot be played."""
-    levels, first = load_worlds(compiled, [level], box=box)
+    maps, first = load_worlds(compiled, [level], box=box)
     used = int(first["slots_used"][0])
     size = (used_bytes(used) - STATE_START) // 8
     initial = _words(first, 0, size).copy()
     worlds = new_worlds(2, used)
-    start = Start(levels, worlds, initial, _words(worlds, 0, size), _words(worlds, 1, size))
+    start = Start(maps, worlds, initial, _words(worlds, 0, size), _words(worlds, 1, size))
     start.node[:] = initial
     start.scratch[:] = initial
     return start

@@ -172,7 +172,8 @@ class Timeline:
         for name, values in ninja_columns(record).items():
             self._columns[name][first:stop] = values
         if self.watched:
-            watched, objects = self._objects[first:stop], object_rows(record, len(self.watched))
+            watched = self._objects[first:stop]
+            objects = object_rows(record, len(self.watched))
             for name in ("x", "y", "s"):
                 watched[name] = objects[name]
             watched["switched"] = switched_doors(record, len(self.watched))

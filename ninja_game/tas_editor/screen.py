@@ -150,7 +150,8 @@ class TasScreen(WorkspaceScreen):
             self.held.follow(event.raw)
             return True
         hides = self.level.take_over.on and "boss" in event.pressed
-        taken, escape = not hides and super().capture(event), event.source == ("keys", "escape")
+        taken = not hides and super().capture(event)
+        escape = event.source == ("keys", "escape")
         if taken and escape:
             self.tab.left()
         return taken or (escape and not hides and self.tab.stop())

@@ -263,7 +263,8 @@ class SpanResults:
             return ""
         # A miss is simulated only if its end is shown: nearer misses come often during a search.
         to_exit = miss.missed_by == 0.0 or "won" in self.task.goal
-        last, ending = self.task.first + miss.ticks - 1, self.shown_run(miss).ending if to_exit else ""
+        last = self.task.first + miss.ticks - 1
+        ending = self.shown_run(miss).ending if to_exit else ""
         if miss.missed_by == 0.0:
             return f"With what follows the goal, {ending}. Try: {WITHOUT_REST.lower()}; or Same end, sooner."
         lacks = ", ".join(miss.missing) or score_text(self.task, miss).removeprefix("closest: ").partition(" after ")[0]

@@ -293,6 +293,12 @@ def run_colour(number: int) -> pygame.Color:
     return RUN_COLOURS[number % len(RUN_COLOURS)]
 
 
+def plot_colour(number: int, palette: Palette) -> pygame.Color:
+    """The colour of a run on a panel: lighter than ``run_colour`` on dark ones, darker on light ones."""
+    dark = palette.panel.hsla[2] < 50
+    return run_colour(number).lerp("white" if dark else "black", 0.4 if dark else 0.25)
+
+
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
     """A colour between two, ``share`` (0…1) of the way from ``a`` to ``b``.
 

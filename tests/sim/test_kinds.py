@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from ninja_game.backend.plain import PlainWorlds
-from ninja_game.editor.brush import OBJECT_TYPES
+from ninja_game.editor.palette import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations import objects

@@ -384,9 +384,11 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
         dy = o.end_y - y
     reach = size + gap
     return (
-        x + clamp(dx, -_FAR, 0.0) - reach, x + clamp(dx, 0.0, _FAR) + reach,
-        y + clamp(dy, -_FAR, 0.0) - reach, y + clamp(dy, 0.0, _FAR) + reach,
-    )  # fmt: skip
+        x + clamp(dx, -_FAR, 0.0) - reach,
+        x + clamp(dx, 0.0, _FAR) + reach,
+        y + clamp(dy, -_FAR, 0.0) - reach,
+        y + clamp(dy, 0.0, _FAR) + reach,
+    )
 
 
 @fast
@@ -405,6 +407,8 @@ def cell_bounds(area: Any) -> tuple[int, int, int, int]:
     """First and last column and row of the cells that an area, px, touches."""
     left, right, top, bottom = area
     return (
-        int(clamp(left / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)), int(clamp(right / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
-        int(clamp(top / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)), int(clamp(bottom / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
-    )  # fmt: skip
+        int(clamp(left / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
+        int(clamp(right / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
+        int(clamp(top / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
+        int(clamp(bottom / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
+    )

@@ -261,7 +261,7 @@ def observe_rays(
     """Follow the rays of some worlds like ``cast_ray``, bit for bit, with fewer look-ups per line of the grid."""
     for k in range(first, last):
         index = indices[k]
-        tiles = maps[level_of[index]].tiles
+        ids = maps[level_of[index]].ids
         base = level_of[index] * EDGE_STATES
         w = worlds[index]
         x = w.ninja.x
@@ -279,7 +279,7 @@ def observe_rays(
             cell = start
             edge = 0
             t = 0.0
-            state = INTERESTING if tiles[start] else OFF
+            state = INTERESTING if ids[start] else OFF
             while True:
                 if state != OFF:
                     if state == DOORWAY:
@@ -288,7 +288,7 @@ def observe_rays(
                     hit_y = y + t * dy[j]
                     stopped = state == SOLID
                     if state == INTERESTING:
-                        tile = int(tiles[cell])
+                        tile = int(ids[cell])
                         stopped, hit_x, hit_y = ray_tile(
                             tile, CENTRE_X[cell], CENTRE_Y[cell], hit_x, hit_y, dx[j], dy[j]
                         )

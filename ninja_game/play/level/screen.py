@@ -23,8 +23,9 @@ from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import PlayerData, keep_replay
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation, Playthrough
+from ninja_game.player.playthrough import LevelPlaythrough, Navigation, Playthrough
 from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import COLUMN_MUSIC, SILENCE
@@ -202,7 +203,7 @@ class LevelScreen(Screen):
     def quit(self) -> None:
         self.playthrough.gave_up(self.attempt)
         self.playthrough.data.store.flush()
-        self._leave_to(self.playthrough.next_screen)
+        self._leave_to(self.playthrough.on_leaving)
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app

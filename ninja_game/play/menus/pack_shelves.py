@@ -32,7 +32,7 @@ class PackCell(NamedTuple):
 
 
 class Rack(ListView):
-    """Cells to drag: ``pull`` gets a cell and the mouse's place. A second click chooses the cell instead.
+    """Cells to drag: ``pull`` gets a cell and the mouse's place. A second click is for its screen (``release``).
 
     ``status``: of the levels' pack. ``marked``, ``lifted``: files of the marked and of the dragged levels. ``gap``: the
     cell from which on cells move aside, 0 for none.
@@ -75,10 +75,10 @@ class Rack(ListView):
             self.pull(self.cells[index], (x, y))
         return True
 
-    def release(self) -> None:
-        """The button is released without a drag."""
-        if self._again:
-            self.choose(self.index)
+    def release(self) -> bool:
+        """The button is released without a drag; whether that is a second click. The next one is a first one again."""
+        self._clicked = -1 if self._again else self._clicked
+        return self._again
 
     @property
     def chosen(self) -> PackCell:

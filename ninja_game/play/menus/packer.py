@@ -15,7 +15,6 @@ from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepa
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, file_stem, shown_text
 from ninja_game.files.user_folder import EXPORTS, short_path
-from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, EpisodeSet
@@ -148,8 +147,8 @@ class Packer(Aside):
         self._know(ready.problems)
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         title = f"{name} {ready.pack.index.version}".strip()
-        write, over = (lambda path: write_atomically(path, ready.zipped)), self._earlier(title, ready.pack)
-        self.saved = app.write_export(title, ".zip", write, first=1, over=over)
+        over = self._earlier(title, ready.pack)
+        self.saved = app.write_export(title, ".zip", ready.zipped, first=1, over=over)
         self._zipped, self._compared = ready.zipped, None
         notices = [app.notice]
         if ready.link and waited_for:
@@ -251,7 +250,8 @@ class PackStatus:
         levels = self.pack.levels if self.pack else []
         states = [self.state(level) for level in levels]
         to_do = self.present.to_do if self.present else []
-        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in to_do].count("no-gold-run")
+        certify = sum(map(states.count, NOT_CERTIFIED))
+        gold = [finding.code for finding in to_do].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
         work["look for all gold in"] = gold, "level"
         parts = [f"{verb} {counted(*count)}" for verb, count in work.items() if count[0]]

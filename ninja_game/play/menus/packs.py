@@ -31,9 +31,9 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
-_DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
+_DRAG = "Drag a level or an episode; a second click edits. Enter, or the right button: more. Ctrl or Shift: several"
 
-_MOVES = "Let go where it is to be; with Ctrl, a copy. The colours of a level go by its place in the pack"
+_MOVES = "Let go to move it there; with Ctrl it is copied. The colours of a level go by its place in the pack"
 
 
 class _ShownState(NamedTuple):

@@ -162,7 +162,8 @@ class _Panel:
 
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: by how many ticks others are later (+) or earlier (-) there."""
-    texts, names = [], names_of([run.recording for run in (own, *others)])[1:]
+    texts = []
+    names = names_of([run.recording for run in (own, *others)])[1:]
     for split in own.splits:
         words = [split.name]
         for other, name in zip(others, names, strict=True):

@@ -240,9 +240,8 @@ class SpanWorlds:
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
         # The path of a miss is unknown: a beam continues from copies of other worlds.
         path = self._paths[: ticks if missed_by is None else 0, index].copy()
-        return SpanResult(
-            score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path
-        )
+        gold = int(self.batch.gold[index])
+        return SpanResult(score, ticks, keys.copy(), run, gold, tuple(end), missed_by=missed_by, path=path)
 
     def note_miss(self, margins: FormulaValues, keys: Keys, ticks: int) -> None:
         """Keep the living world nearest to the goal after ``ticks`` ticks of the span, if none was nearer before.

@@ -26,7 +26,7 @@ EDGE_STATES = GRID_CELLS * 4
 class TileMap:
     """The part of a level that never changes during a run."""
 
-    tiles: Annotated[list[u1], GRID_CELLS]  #: tile id of each cell, by grid index
+    ids: Annotated[list[u1], GRID_CELLS]  #: tile id of each cell, by grid index
 
 
 @struct

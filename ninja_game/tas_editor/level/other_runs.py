@@ -47,9 +47,11 @@ class OtherRuns:
     def commands(self) -> Commands:
         return {
             "open_other": lambda: self.editor.app.push(OtherRunScreen(self.editor.app, self)),
-            "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
+            "next_other": self.next,
+            "splice": self.splice,
+            "splice_here": self.splice_here,
             "splice_start": self.splice_start,
-        }  # fmt: skip
+        }
 
     def open(self, recordings: Sequence[Recording]) -> None:
         """Show recordings beside the run, the first chosen. Raises ReplayError for another level or another body."""

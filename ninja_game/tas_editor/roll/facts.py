@@ -16,8 +16,7 @@ from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.timeline import exit_distance
 from ninja_game.tas.tracks import InputTrack, first_different_index
 from ninja_game.tas_editor.editor import TasEditor
-from ninja_game.tas_editor.tabs.values_tab import colour_of
-from ninja_game.ui.theme import Palette
+from ninja_game.ui.theme import Palette, plot_colour
 
 _PREVIEW, BEFORE = -1, -2  # values of ``Compared.number`` for a run that is not among the other runs
 
@@ -32,7 +31,7 @@ class Compared(NamedTuple):
     def colour(self, palette: Palette) -> pygame.Color:
         if self.number == BEFORE:
             return palette.ghost
-        return palette.exit if self.number == _PREVIEW else colour_of(self.number, palette)
+        return palette.exit if self.number == _PREVIEW else plot_colour(self.number, palette)
 
 
 def compared_run(editor: TasEditor) -> Compared | None:

@@ -22,7 +22,8 @@ from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.runs.deaths import SELF
 from ninja_game.runs.messages import (
     _FADE_TICKS,

@@ -216,14 +216,18 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert not screen.marked
     screen.enter()
     click(driver, place(3))
-    assert driver.shown(MenuScreen).title == "Mind the Gap", "a second click opens its menu, however late it comes"
-    driver.choose("Cancel")
+    editor = driver.shown(EditorScreen)
+    assert editor.session.name == "Mind the Gap", "a second click opens the editor, however late it comes"
+    editor.commands.close()
+    click(driver, place(3))
+    assert driver.top() is screen, "back here it takes two clicks again"
     click(driver, place(5), pygame.KMOD_SHIFT)
     driver.carry(place(4), half(screen, 7))
     assert layout(path)[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "no room for three: all stay"
     assert "episode 2 is full" in driver.app.notice
     shelves.index = 3
-    driver.press("return")
+    click(driver, place(3))
+    click(driver, place(3))
     assert driver.shown(MenuScreen).title == "3 levels"
     assert [each.text for each in driver.shown(MenuScreen).widgets] == ["Move...", "Copy", "Take out", "Cancel"]  # type: ignore[attr-defined]
     driver.choose("Take out")
@@ -378,7 +382,7 @@ def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is
 def test_everything_about_a_pack_is_named_again(driver: MenuDriver, path: Path, screen: PackScreen) -> None:
     for index, entry, text in ((1, "Rename...", "Early steps"), (0, "Rename...", "Falls"), (0, "New level...", "New")):
         driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
-        driver.mouse(*(value + 20 for value in screen.shelves.row_area(index)[:2]))
+        driver.press("return")
         driver.choose(entry)
         if entry == "New level...":
             typed(driver, text)
@@ -948,7 +952,6 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_reported(
     for index in (0, 1):
         for _ in "12":
             driver.mouse(*(value + 30 for value in screen.tray.row_area(index)[:2]))
-        driver.choose("Edit")
         driver.press("f7")
         driver.choose_in_menu("Leave the editor")
         driver.shown(PackScreen)
@@ -1177,11 +1180,12 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     driver: MenuDriver, path: Path, own: Path, screen: PackScreen
 ) -> None:
     free = screen.shelves.row_area(11)
-    for mods, done in ((pygame.KMOD_LCTRL, "Copied"), (0, "Moved")):
+    texts = {pygame.KMOD_LCTRL: "Copied Mine from your folder", 0: "Moved Mine from your folder; Ctrl copies instead"}
+    for mods, done in texts.items():
         driver.carry(screen.tray.row_area(0), free, drop=False)
-        assert "with Ctrl, a copy" in drawn(driver.app)
+        assert "with Ctrl it is copied" in drawn(driver.app)
         let_go(driver, free, mods)
-        assert driver.app.notice == f"{done} Mine from your folder. Undo, or Ctrl+Z, takes it back"
+        assert driver.app.notice == f"{done}. Undo, or Ctrl+Z, takes it back"
         assert (own.exists(), (path / "mine.txt").exists()) == (bool(mods), True)
         driver.choose("Undo")
         assert (own.exists(), (path / "mine.txt").exists()) == (True, False)
@@ -1556,7 +1560,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(driver: MenuDrive
     assert screen.shelves.cells[1].level
     packs.accept(path, level.name, "no-ninja", "a joke")
     editor.commands.edit_entry(screen.shelves.cells[1].level)
-    assert "no-ninja" not in editor.session.accepted, "the pack's check does not accept it either"
+    assert "no-ninja" not in editor.session.edited.accepted, "the pack's check does not accept it either"
     editor.session.examine()
     driver.frames(2)
     text = drawn(driver.app)
@@ -1731,3 +1735,43 @@ def test_there_is_one_zip_of_each_version(driver: MenuDriver, path: Path) -> Non
     assert Pack(exports / "laundry-2.zip").index.version == "2"
     packs.describe(path, {"author": "Somebody else"})
     assert publish("") == "laundry-3.zip", "another author's pack is not replaced"
+
+
+def test_the_editor_leads_to_the_packs_and_edits_what_is_opened_there(
+    driver: MenuDriver, path: Path, own: Path, screen: PackScreen
+) -> None:
+    def shelves_of_the_editor() -> PackScreen:
+        driver.choose_in_menu("Packs...")
+        return driver.shown(PackScreen)
+
+    click(driver, screen.tray.row_area(0))
+    click(driver, screen.tray.row_area(0))
+    editor = driver.shown(EditorScreen)
+    shown = shelves_of_the_editor()
+    shown.choose_tray("yours")
+    driver.carry(shown.tray.row_area(0), shown.shelves.row_area(11))
+    assert not own.exists()
+    driver.press("escape")
+    assert driver.top() is editor
+    assert (editor.session.source.path, editor.session.is_saved) == (path / "mine.txt", True), "it follows its file"
+    editor.session.tools.history.change(editor.session.draft.with_tiles({(9, 9): 1}))
+    shown = shelves_of_the_editor()
+    for _ in range(2):
+        click(driver, shown.shelves.row_area(1))
+    driver.choose("Cancel")
+    assert driver.top() is editor
+    assert editor.session.name == "Mine"
+    shown = shelves_of_the_editor()
+    for _ in range(2):
+        click(driver, shown.shelves.row_area(1))
+    driver.choose("Discard changes")
+    assert driver.top() is editor
+    assert editor.session.name == "First Steps"
+    shelves_of_the_editor()
+    driver.choose("Problems")
+    page = problem_page(driver)
+    page.problems = [Problem("01-0: odd", go=lambda: shown.edit(shown.levels()[5], None))]
+    driver.choose("Go there")
+    assert driver.top() is editor
+    assert not [other for other in driver.app.stack._screens if isinstance(other, ProblemsScreen)]
+    editor.session.close()

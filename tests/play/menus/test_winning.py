@@ -14,7 +14,8 @@ from ninja_game.play.level.level_play import DEATH_PAUSE, STAMP_TICKS, TRIES_FRO
 from ninja_game.play.level.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.window import WIPE_MS
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
