@@ -49,6 +49,8 @@ class Toolbar(EditorPart):
 
 
 class StatusLine(EditorPart):
+    """The line below the level: what the next click does, and what is under the pointer."""
+
     area = LAYOUT.status
 
     def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
@@ -60,7 +62,7 @@ class StatusLine(EditorPart):
         tools = self.session.tools
         if tools.placing_switch:
             what = object_type_name(tools.brush.spec)
-            return f"Now the switch of the {what}: click where it is. Esc puts the {what} away"
+            return f"Now the switch of the {what}: click where it is. Esc removes the {what}"
         if tools.ghost:
             return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc cancels"
         number = message_near(tools.draft, *tools.pointer) if self.view.hovering else None
