@@ -340,6 +340,10 @@ def test_keys_alone_move_a_level(driver: MenuDriver, path: Path, screen: PackScr
     assert layout(path) == {0: ["00-1", "00-2", "00-3", "00-4"], 1: ["00-0", "01-0", "01-1", "01-2"]}
     driver.press("return")
     driver.choose("Move...")
+    click(driver, screen.shelves.row_area(1))
+    assert layout(path) == {0: ["00-0", "00-1", "00-2", "00-3", "00-4"], 1: ["01-0", "01-1", "01-2"]}, "or a click"
+    driver.press("return")
+    driver.choose("Move...")
     driver.press("escape")
     driver.shown(PackScreen)
     driver.press("escape")
