@@ -59,7 +59,7 @@ def splits(
     """Show when runs take gold, open doors and the exit, and end.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each level has a
-    table: a row a split, the tick of the best run, and how many ticks later (+) or earlier (-) each other run is
+    table: a row per split, the tick of the best run, and how many ticks later (+) or earlier (-) each other run is
     there. The column "segment" has the fewest ticks from the row above that any of the runs needs; their sum is the
     "sum of best". Ticks count from 0; 40 are a second.
 

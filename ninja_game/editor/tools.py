@@ -189,7 +189,7 @@ class EditorTools:
         self.history.end()
 
     def finish(self) -> None:
-        """End the operation under way; a door or exit without its switch is given up."""
+        """End the operation under way; a door or exit without its switch is removed."""
         if spec := self._switchless:
             self.history.abandon()
             self._end()

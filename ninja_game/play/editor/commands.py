@@ -327,7 +327,7 @@ class EditorCommands(DocumentCommands):
                 self.playtest(self.session.tools.pointer)
 
         def ask() -> None:
-            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc gives up"
+            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc cancels"
 
         here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("playtest_here", *IN_MORE))
         choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"

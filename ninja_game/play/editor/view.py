@@ -269,7 +269,7 @@ class EditorView(Pane):
         self._hint = Hint(self.session.draft, "Esc again opens the File menu, where Leave is too", offers_menu=True)
 
     def _tell_given_up(self, spec: ObjectSpec) -> None:
-        self.app.notify(f"The {object_type_name(spec)} is put away: it had no switch yet")
+        self.app.notify(f"The {object_type_name(spec)} is removed: it had no switch yet")
 
     @property
     def message(self) -> int | None:
