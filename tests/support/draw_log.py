@@ -214,6 +214,21 @@ def drawn(app: App) -> str:
     return "\n".join(lines)
 
 
+def notice_box(app: App) -> pygame.Rect:
+    """The place of the notice on the window, px, as it is drawn now: over all else."""
+    boxes: list[pygame.Rect] = []
+    window = Theme.window
+
+    def noted(theme: Theme, *where: Any, **more: Any) -> pygame.Rect:
+        boxes.append(window(theme, *where, **more))
+        return boxes[-1]
+
+    with patch.object(Theme, "window", noted):
+        app.draw()
+    assert app.notice
+    return boxes[-1]
+
+
 def noted_texts(monkeypatch: pytest.MonkeyPatch) -> dict[str, pygame.Rect]:
     """Every text that is drawn from now on, and its last place on the window, px; unlike ``drawn``, redraws nothing."""
     places: dict[str, pygame.Rect] = {}

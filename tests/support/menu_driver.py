@@ -13,6 +13,7 @@ import pygame
 from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
+from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import FormPanel
@@ -215,6 +216,11 @@ class MenuDriver:
         for _ in recording.inputs:
             self.app.advance(FRAME_MS)  # without its picture, which nobody looks at
         self.frames(10)
+
+    def leave_editor(self) -> None:
+        """Close the level editor on top, which asks nothing."""
+        self.shown(EditorScreen).session.close()
+        self.app.pop()
 
     def close(self) -> None:
         """Leave everything."""
