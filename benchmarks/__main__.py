@@ -7,7 +7,7 @@
 Runs the replays of the game, or those in FILE, on both memories; the costs of loading and of save-states are for the
 level of median size. Every figure is the median of several rounds on one thread. A row of the history also has batches
 on all cores, and a signature of everything that the runs showed. Where the row before was of the same runs and had
-another signature, a result has changed: this is said, and the exit code is 1.
+another signature, a result has changed: this is reported, and the exit code is 1.
 """
 
 from __future__ import annotations

@@ -59,7 +59,7 @@ def loose_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any
 def loose_move(
     columns: int, x: Any, y: Any, dx: Any, dy: Any, heads: Any, nexts: Any, prevs: Any, cells: Any, rounds: int
 ) -> int:
-    """Move all objects to and fro and file again those whose cell changed; how many that were."""
+    """Move all objects back and forth and file again those whose cell changed; how many that were."""
     changed = 0
     for number in range(rounds):
         sign = 1.0 - 2.0 * (number & 1)
@@ -184,7 +184,7 @@ def bullets(
     columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any, cells: Any, vx: Any, vy: Any, first: int,
     filed: int, rounds: int,
 ) -> int:  # fmt: skip
-    """Fly the objects from slot ``first`` on, to and fro, each asking nine cells what it hits; how many hits.
+    """Fly the objects from slot ``first`` on, back and forth, each asking nine cells what it hits; how many hits.
 
     ``filed``: they are in the grid themselves and are filed again; else they only read it.
     """

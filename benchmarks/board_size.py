@@ -75,7 +75,7 @@ def weigh(site: Path) -> None:
 
 
 def measure(folder: Path, found: Iterator[str], count: int, words: list[str]) -> None:
-    """Put so many runs into the folder, make the board from nothing, then with one run more."""
+    """Put this many runs into the folder, make the board from nothing, then with one run more."""
     runs, site = folder / "runs", folder / f"site-{count}"
     there = sum(1 for _ in runs.glob("*/*"))
     for number in range(there, count):

@@ -68,7 +68,7 @@ class BusyRun(LevelPlaythrough):
     """A level with a ghost."""
 
     def ghosts(self) -> list[PacedRun]:
-        """One that runs to and fro."""
+        """One that runs back and forth."""
         return [PacedRun(bytes(2 if k % 90 < 60 else 1 for k in range(600)))]
 
 

@@ -26,7 +26,7 @@ class Chart:
     points: list[tuple[str, float, float]] = field(default_factory=list)
 
     def add(self, series: str, x: float, y: float) -> None:
-        """Note a point, and say so: whoever waits sees that something happens."""
+        """Note a point and print it, as a sign of progress."""
         self.points.append((series, x, float(f"{y:.5g}")))
         value = f"{y:,.0f}" if y >= 1000 else f"{y:.4g}"
         print(f"{self.name}: {series}: {x:,g} {self.x} -> {value} {self.y}", flush=True)

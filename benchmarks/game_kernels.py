@@ -15,12 +15,12 @@ from ninja_game.sim.world import step
 
 
 @kernel
-def count_ticks(levels: Any, worlds: Any, index: int, inputs: Any) -> int:
+def count_ticks(maps: Any, worlds: Any, index: int, inputs: Any) -> int:
     """Run world ``index`` in level ``index`` to its end or that of ``inputs``, without a record; the ticks run."""
-    level = levels[index]
+    tiles = maps[index]
     w = worlds[index]
     for tick in range(len(inputs)):
-        step(level, w, int(inputs[tick]))
+        step(tiles, w, int(inputs[tick]))
         if w.outcome:
             return tick + 1
     return len(inputs)
@@ -47,11 +47,11 @@ def query_every_thing(worlds: Any, rounds: int) -> int:
 
 
 @kernel
-def cast_along_cells(levels: Any, worlds: Any, x: float, y: float, dx: float, dy: float, rounds: int) -> float:
+def cast_along_cells(maps: Any, worlds: Any, x: float, y: float, dx: float, dy: float, rounds: int) -> float:
     """The game's ray: from cell to cell by their edges; where it stops, px to the right of its start."""
     total = 0.0
     for _ in range(rounds):
-        stopped, stop_x, _y = cast_ray(levels[0], worlds[0], x, y, dx, dy)
+        stopped, stop_x, _y = cast_ray(maps[0], worlds[0], x, y, dx, dy)
         if stopped:
             total += stop_x - x
     return total / rounds
@@ -59,11 +59,11 @@ def cast_along_cells(levels: Any, worlds: Any, x: float, y: float, dx: float, dy
 
 @kernel
 def cast_through_box(
-    levels: Any, worlds: Any, x: float, y: float, dx: float, dy: float, length: float, rounds: int
+    maps: Any, worlds: Any, x: float, y: float, dx: float, dy: float, length: float, rounds: int
 ) -> float:
     """The naive ray: every cell of the box around it is asked for tile and edges, the nearest hit counts."""
     total = 0.0
-    level = levels[0]
+    tiles = maps[0]
     edges = worlds[0].edges
     for _ in range(rounds):
         first = cell_at(x, y)
@@ -73,7 +73,7 @@ def cast_through_box(
         row = first
         while row <= last:
             for cell in range(row, row + width + 1):
-                hit, hit_x, hit_y = ray_tile(level.tiles[cell], CENTRE_X[cell], CENTRE_Y[cell], x, y, dx, dy)
+                hit, hit_x, hit_y = ray_tile(tiles.ids[cell], CENTRE_X[cell], CENTRE_Y[cell], x, y, dx, dy)
                 if hit:
                     nearest = min(nearest, (hit_x - x) * dx + (hit_y - y) * dy)
                 right = CENTRE_X[cell] + 12.0

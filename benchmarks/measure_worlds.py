@@ -124,8 +124,8 @@ def whole_ticks() -> Chart:
     call = compiled(count_ticks)
     keys = np.zeros(400, np.uint8)
     for count in NUMBERS:
-        levels, world = load_worlds(compiled, [scattered(count)], box=False)
-        chart.add("tick", count, seconds_per(partial(call, levels, world, 0, keys)) / len(keys) * 1e9)
+        maps, world = load_worlds(compiled, [scattered(count)], box=False)
+        chart.add("tick", count, seconds_per(partial(call, maps, world, 0, keys)) / len(keys) * 1e9)
         run = Simulation(scattered(count), memory="compiled")
         state = run.save()
         chart.add("save", count, seconds_per(run.save) * 1e9)
@@ -139,16 +139,16 @@ def rays() -> Chart:
     dx, dy = 0.8191520442889918, 0.573576436351046
     for wall in (3, 4, 6, 8, 12, 16, 22, 30):
         tiles = tuple(1 if number // 23 + 1 >= wall else 0 for number in range(TILES))
-        level, world = load_worlds(compiled, [Level(tiles, (ObjectSpec(NINJA, (36.0, 36.0)),))], box=False)
+        maps, world = load_worlds(compiled, [Level(tiles, (ObjectSpec(NINJA, (36.0, 36.0)),))], box=False)
         x, y = 36.5, 37.0
         length = (wall * 24.0 - x) / dx + 1.0
         crossed = int((x + dx * length) / 24) - 1 + int((y + dy * length) / 24) - 1
         same = [
-            compiled(game_kernels.cast_along_cells)(level, world, x, y, dx, dy, 1),
-            compiled(game_kernels.cast_through_box)(level, world, x, y, dx, dy, length, 1),
+            compiled(game_kernels.cast_along_cells)(maps, world, x, y, dx, dy, 1),
+            compiled(game_kernels.cast_through_box)(maps, world, x, y, dx, dy, length, 1),
         ]
         assert abs(same[0] - same[1]) < 1e-6, f"the rays disagree: {same}"
-        ray = level, world, x, y, dx, dy
+        ray = maps, world, x, y, dx, dy
         along = partial(compiled(game_kernels.cast_along_cells), *ray, 100)
         chart.add("along its cells", crossed, seconds_per(along) * 1e7)
         chart.add(

@@ -50,7 +50,7 @@ def normal_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: An
 def normal_move(
     columns: int, x: Any, y: Any, dx: Any, dy: Any, heads: Any, nexts: Any, prevs: Any, low: Any, high: Any, rounds: int
 ) -> int:
-    """Move all objects to and fro and file again those whose cells changed; how many that were."""
+    """Move all objects back and forth and file again those whose cells changed; how many that were."""
     changed = 0
     for number in range(rounds):
         sign = 1.0 - 2.0 * (number & 1)

@@ -84,11 +84,11 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
     """Ticks a second on the plain memory, one thread."""
 
     def race(recording: Recording) -> tuple[int, float]:
-        level, world = load_plain(recording.level, recording.body == "box")
+        tiles, world = load_plain(recording.level, recording.body == "box")
         inputs = recording.inputs
         start = time.perf_counter()
         for keys in inputs:
-            step(level, world, keys)
+            step(tiles, world, keys)
             if world.outcome:
                 break
         return world.tick, time.perf_counter() - start
@@ -101,10 +101,10 @@ def compiled_speed(recordings: Sequence[Recording]) -> float:
     from ninja_game.backend.compiled import load_worlds
 
     def race(recording: Recording) -> tuple[int, float]:
-        levels, worlds = load_worlds(compiled, [recording.level], box=recording.body == "box")
+        maps, worlds = load_worlds(compiled, [recording.level], box=recording.body == "box")
         inputs = np.frombuffer(recording.inputs, np.uint8)
         start = time.perf_counter()
-        ticks = kernel(levels, worlds, 0, inputs)
+        ticks = kernel(maps, worlds, 0, inputs)
         return ticks, time.perf_counter() - start
 
     kernel = compiled(count_ticks)

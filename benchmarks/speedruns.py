@@ -5,7 +5,7 @@ death (`--cut` changes that); then `search --goal won` has 30 s of processor tim
 ticks. `improve`: thirty runs have a minute of processor time each; `--every 6` takes each sixth of them. Both on one
 thread, in seconds of the processor, so that others may work beside. The levels: those with a person's and a
 tool-assisted speedrun, in their order; thirty at equal distances, and twenty of the others. Each run has its line at
-once; the figures of docs/speedruns.md come last.
+once; the figures of benchmarks/results/speedruns.md come last.
 """
 
 from __future__ import annotations

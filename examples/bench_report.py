@@ -85,7 +85,7 @@ def rates(runs: list[dict[str, Any]], levels: str, name: str) -> NDArray[np.floa
 def redrawn(runs: list[dict[str, Any]], levels: str, name: str) -> NDArray[np.float64]:
     """As ``rates``, with the levels of each grade drawn again, the same for all runs: (RESAMPLES, runs, grades).
 
-    Runs whose file does not tell of each level have the same score each time.
+    Runs whose file lacks the results of single levels have the same score each time.
     """
     once = rates(runs, levels, name)
     if not all("levels" in run for run in runs):

@@ -62,7 +62,7 @@ class Settings:
 
     ``worlds`` play ``round`` steps between two improvements, each of ``passes`` over them. ``exit``, ``way``: what the
     exit and the way to it are worth; ``time_limit``: ticks of an episode in training. ``view``: the policy sees a
-    picture of so many px round the ninja, and nothing else; 0: it sees the numbers that the value is told from.
+    picture, this many px wide, around the ninja, and nothing else; 0: the numbers that the value is estimated from.
     """
 
     hidden: int = 128
@@ -261,7 +261,7 @@ def compiled(
     """What plays, (networks, observations) -> (logarithms of the chances, values); what learns; the optimiser's memory.
 
     That is (networks, memory, share, batch) -> (networks, memory), one step of Adam. ``sight``: the columns that the
-    policy sees; the value is told from the first ``numbers``.
+    policy sees; the value is estimated from the first ``numbers``.
     """
     try:
         import jax

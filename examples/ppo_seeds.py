@@ -36,7 +36,7 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.learn.levels.origins import level_source
 from ninja_game.learn.levels.source import LevelSource
 
-PATIENCE = 60.0  # seconds without a sign of the others after which a process gives up
+PATIENCE = 60.0  # seconds without a sign of the others after which a process ends
 EPISODES, PASSED, SECONDS = range(3)  # what is counted of each process
 
 

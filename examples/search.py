@@ -175,7 +175,7 @@ class Archive:
         return self._promise + VISIT_WEIGHT * self._visits
 
     def _room(self, count: int) -> Indices:
-        """Places for so many moments; the least promising ones give way."""
+        """Places for this many moments; the least promising ones give way."""
         if self._used + count <= self._size:
             self._used += count
             return np.arange(self._used - count, self._used)

@@ -22,7 +22,7 @@ def open_missing_streams() -> None:
 
 
 def main() -> None:
-    """Let Ctrl-C end the process by itself until modules are loaded that can say so; a traceback says nothing."""
+    """Let Ctrl-C end the process without a traceback until the modules are loaded that report it in one line."""
     if sys.platform != "win32":
         if _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:
             _signal.signal(_signal.SIGINT, _signal.SIG_DFL)

@@ -1,4 +1,4 @@
-"""What a run costs, and how much work an untrusted one may ask for.
+"""The cost of a run, and the limit of work that an untrusted run may cause.
 
 Work is counted, never timed: ticks, each at a cost that the level fixes. So a verdict depends on the run, the level and
 the rules only, and is the same on every machine and on both memories.
@@ -46,7 +46,7 @@ def tick_cost(level: Level) -> int:
 
 
 def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:
-    """How many ticks of a level a budget pays for: at least one."""
+    """The number of ticks of a level that a budget pays for: at least one."""
     return min(MAX_TICKS, max(1, budget // tick_cost(level)))
 
 
@@ -54,6 +54,7 @@ def over_budget(level: Level, ticks: int, budget: int) -> BudgetError:
     """The error for a run that is not over after all the ticks that its budget pays for."""
     cost = tick_cost(level)
     found = f"{ticks:,} ticks of {cost:,} each, not over after {affordable_ticks(level, budget):,}"
-    hint, option = "shorten its inputs if they go on after its end", f"--budget {ticks * cost} lets it run"
+    hint = "shorten its inputs if they go on after its end"
+    option = f"--budget {ticks * cost} lets it run"
     expected = f"at most {budget:,}"
     return BudgetError("the run costs too much work", found=found, expected=expected, hint=hint, option=option)

@@ -1,4 +1,4 @@
-"""What every document under edit has: its history, a file to save to, and a copy in case the program dies."""
+"""Documents under edit, for the level editor and the TAS editor: undo, a safe way to save, and a recovery copy."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def check_free(path: Path, there: str, known: str | None, *, replacing: bool) ->
 
 
 class RecoveryFile:
-    """A copy of what is being edited, in the player's folder, for the next start if the program dies.
+    """The recovery copy of a document, in the player's folder: the next start offers it after a crash.
 
-    It is locked as long as its program lives. ``file``: that of a program that has died, to continue with. ``problem``:
-    why the copy cannot be kept, or ''. Raises FileError where another window continues with ``file`` already.
+    It is locked as long as its program runs. ``file``: the copy of a crashed program, to go on with; None begins a new
+    one. ``problem``: why the copy cannot be written, or ''. Raises FileError if another window has ``file`` already.
     """
 
     def __init__(self, folder: Path, suffix: str, file: Path | None = None) -> None:
@@ -85,7 +85,7 @@ def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> 
 
 
 class History(Generic[Draft]):
-    """Undo and redo. ``draft``: the present one. A *stroke*, such as a line of tiles, is undone as one."""
+    """Undo and redo over drafts. ``draft``: the present one. The edits of a *stroke* (press to release) are one."""
 
     def __init__(self, draft: Draft, done: Sequence[Draft] = (), undone: Sequence[Draft] = ()) -> None:
         self.draft = draft
@@ -101,7 +101,7 @@ class History(Generic[Draft]):
         return bool(self._undone)
 
     def steps(self, most: int) -> tuple[list[Draft], list[Draft]]:
-        """The drafts to which undo and redo lead, the next one last, at most so many of each."""
+        """The drafts to which undo and redo lead, the next one last, at most this many of each."""
         began = [] if self._began in (None, self.draft) else [self.began]
         return [*self._done, *began][-most:], self._undone[-most:]
 

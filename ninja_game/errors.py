@@ -1,7 +1,6 @@
 """The errors that this project raises on purpose.
 
-All are NinjaGameErrors: the input or the request was bad, and the message says how to fix it. Any other exception is a
-bug of ours.
+All are NinjaGameErrors: the input or the request was bad, and the message says how to fix it. Any other one is a bug.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ class NinjaGameError(Exception):
 
 
 def reason(error: BaseException) -> str:
-    """What went wrong, in words for the user.
+    """The error in words for the user.
 
     >>> reason(FileNotFoundError(2, "No such file", "a.txt")), reason(MemoryError()), reason(KeyError("x"))
     ('No such file', 'there is not enough memory', "a fault of the program, KeyError: 'x'")
@@ -46,8 +45,8 @@ class FormatError(NinjaGameError):
     file: str = ""
     line: int = 0
     column: int = 0
-    found: str = ""  #: what stands there
-    expected: str = ""  #: what could stand there
+    found: str = ""  #: the text at that place
+    expected: str = ""  #: the valid texts, in words
     hint: str = ""  #: how to fix it
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""Where the program runs: on a desktop, or in a page of a browser; what it does in the background, what it lacks.
+"""The platform: a desktop, or a page of a browser; background work on it, and optional parts that are missing.
 
 The only module that knows.
 """
@@ -36,7 +36,7 @@ def in_page_or_not(page: Value, desktop: Value) -> Value:
 
 
 def cores() -> int:
-    """How many of the machine's cores this process may use."""
+    """The number of the machine's cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -122,7 +122,7 @@ class NewestJob(Generic[Job, Result]):
 
 
 def install_hint(extra: str) -> str:
-    """How to install an optional part of the program: in a checkout its own tool, else pip of the running Python.
+    """The command that installs an optional part of the program: a checkout's own tool, else pip of this Python.
 
     It names the packages of the part, not this one, which the user's index may not have.
     """

@@ -1,4 +1,4 @@
-"""How a command ends on Ctrl-C and SIGTERM: by an exception, so that it can clean up; by force if that takes too long.
+"""Ends a command on Ctrl-C and SIGTERM: by an exception, so that it can clean up; by force if that takes too long.
 
 Before a command begins and after it is done there is nothing to clean up, and an exception would come where nobody
 catches it: a signal then ends the process at once. Python handles a signal only between two of its own instructions.
@@ -17,14 +17,14 @@ from contextlib import contextmanager
 GRACE = 1.2  # seconds that a command has to end by itself after a signal
 
 last_acts: list[Callable[[], object]] = []
-"""What is done right before the process is ended by force; modules add their own when they are loaded."""
+"""Functions called right before the process is ended by force; modules add their own when they are loaded."""
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
 
 announced = threading.Event()  # the command has said itself that it was stopped; what remains may take its time
 
 received: list[BaseException] = []
-"""What the first signal has raised; Python may have lost it, or made another error of it."""
+"""The exception of the first signal; Python may have lost it, or turned it into another error."""
 
 raising = threading.Event()  # a command is at work: a signal raises an exception in it
 

@@ -24,7 +24,6 @@ from functools import cached_property
 from typing import Any
 
 from ninja_game.backend.memories import open_worlds
-from ninja_game.backend.plain import tile_map
 from ninja_game.backend.worlds import MemoryName
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
@@ -32,6 +31,7 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bit
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Body, Level, is_box
+from ninja_game.sim.loader import tile_map
 from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
@@ -83,7 +83,7 @@ class EventView:
     name: str
     x: float
     y: float
-    dx: float  #: of the vector, as dy
+    dx: float  #: the vector's x
     dy: float
     object_id: int | None
     cause: str = ""
@@ -167,7 +167,7 @@ class Simulation:
         self._inputs.append(keys)
 
     def kill(self, cause: int, dx: float, dy: float) -> None:
-        """Kill the ninja where it is, as the game does when its time is over or the player gives up.
+        """Kill the ninja where it is, as the game does when its time is over or the player ends the try.
 
         ``cause``: one of those in sim/states.py; (dx, dy): its corpse's impulse, px/tick. It is part of no recording.
         Raises ArgumentError for another cause.
@@ -186,7 +186,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """What came first, "exit" or "dead"; "running" before either."""
+        """The result: "exit" or "dead", whichever came first; "running" before that."""
         return OUTCOME_NAMES[self._worlds.number("outcome")]
 
     @property
@@ -219,7 +219,7 @@ class Simulation:
 
     @property
     def events(self) -> list[EventView]:
-        """What happened in the last tick, in order."""
+        """The events of the last tick, in order."""
         return [_event_view(event) for event in self._worlds.events()]
 
     # --- save-states and digests ---

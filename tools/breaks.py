@@ -6,7 +6,7 @@ A break changes one node of a syntax tree: a comparison, an operator, `and` and 
 function returns, a call or `+=` that is left out. The first call at a HEAD runs all tests once under coverage.py, which
 tells which tests execute a line. Each break is tried in a scratch worktree of HEAD on the tests that execute its line,
 or lines that name what it defines, fastest first; where none does, on the test files that import its module, or share
-its folder or name. Breaks of the rules are drawn only with `--part sim`. What came of each is a line of JSON in the
+its folder or name. Breaks of the rules are drawn only with `--part sim`. The result of each is a line of JSON in the
 log, where the next call with that HEAD goes on. A survivor is an untested line, or a break that changes nothing; read
 it before you write a test.
 
@@ -248,7 +248,7 @@ def rule_breaks() -> dict[str, Break]:
 def try_out(
     broken: Break, tests_of: Callable[[Break], list[str]], trees: Queue[Path], sound: dict[str, bool]
 ) -> tuple[str, list[str], float]:
-    """What came of a break, the tests that failed or ran, seconds; a test that fails without a break does not count."""
+    """The result of a break, the tests that failed or ran, seconds; a test that fails without it does not count."""
     tree, began = trees.get(), time.monotonic()
     path = tree / broken.file
     before = path.read_bytes()

@@ -68,7 +68,7 @@ def program(name: str) -> str:
 
 def run(*words: str) -> int:
     """Exit code of a program of the environment. An interrupt reaches it too, and it ends as it does."""
-    # What is said of a worker that crashed stands beside its test.
+    # The report of a crashed worker stands beside its test.
     errors = subprocess.STDOUT if "pytest" in words else None
     process = subprocess.Popen([program(words[0]), *words[1:]], cwd=ROOT, stderr=errors)
     while True:
@@ -141,7 +141,7 @@ def lint(steps: Sequence[Sequence[str]]) -> list[str]:
 
 
 def tool(folder: str, name: str, *rest: str) -> int:
-    """A script of tools/ or benchmarks/. One without options would not read --help: what it is for is said here."""
+    """A script of tools/ or benchmarks/. One without options would not read --help: its purpose is printed here."""
     script = ROOT / folder / f"{name.replace('.', '/')}.py"
     text = script.read_text("utf-8") if script.is_file() else "argparse"
     if {"-h", "--help"} & {*rest} and "argparse" not in text:

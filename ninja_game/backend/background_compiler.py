@@ -1,7 +1,6 @@
 """A background process that compiles all kernels of all commands once, so that no command waits for them.
 
-It runs `ninja-game compile` at low priority in its own session, so it outlives the process that started it. Only one
-works at a time.
+It runs `ninja-game compile` at low priority, one at a time, in a session that outlives the process that started it.
 """
 
 from __future__ import annotations

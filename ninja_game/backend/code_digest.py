@@ -17,8 +17,7 @@ def code_digest(entry: Callable[..., Any], compiler: str) -> str:
     """Hash everything that determines the machine code of a kernel.
 
     That is ``compiler`` (the compiler with its options), the code of the function and of all registered functions that
-    it reaches, the fields of the named tuples that they take, and the values of the constants that they name, wherever
-    those are defined.
+    it reaches, the fields of the named tuples that they take, and the values of the constants that they name.
     """
     digest = sha256(compiler.encode())
     waiting: list[Any] = [entry]

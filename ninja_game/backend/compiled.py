@@ -61,7 +61,7 @@ def _loaded(
     maps = np.zeros(len(levels), TILE_MAP)
     for number, (level, table) in enumerate(zip(levels, tables, strict=True)):
         map_, world = maps[number : number + 1], worlds[first + number : first + number + 1]
-        map_[0]["tiles"] = grid_tiles(level)
+        map_[0]["ids"] = grid_tiles(level)
         kinds, counts = np.array(table.kinds, np.int64), np.array(table.counts, np.int64)
         values = np.array(table.values, np.float64).reshape(-1, 9)
         compiled(load_world)(map_, world, 0, kinds, counts, values, int(box))
@@ -186,14 +186,14 @@ class CompiledWorlds(Worlds):
         self._levels_played = []
 
     def initial_levels(self, numbers: Iterable[int]) -> list[InitialLevel]:
-        objects, tiles, ninja = self.fresh["objects"], self.maps["tiles"], self.fresh["ninja"]
+        objects, ids, ninja = self.fresh["objects"], self.maps["ids"], self.fresh["ninja"]
         levels = []
         for number in numbers:
             used = self.fresh["slots_used"][number]
             columns = [objects[name][number, :used].tolist() for name in ("kind", "x", "y", "partner")]
             start = float(ninja["x"][number]), float(ninja["y"][number])
             rows = list(map(InitialObject, range(used), *columns))
-            levels.append(InitialLevel(tiles[number].tolist(), rows, start))
+            levels.append(InitialLevel(ids[number].tolist(), rows, start))
         return levels
 
     def put_levels(self, numbers: NDArray[np.intp], levels: Sequence[Level]) -> None:

@@ -3,8 +3,7 @@
 A twin has the code of its rule and its own namespace, in which rules are compiled functions and module-level lists
 constant arrays. So the plain rules stay ordinary Python, and both memories run side by side in one process.
 
-Only kernels get the wrappers that Python needs and a place in the cache, which saves a quarter of the compile time and
-most of the cache.
+Only kernels get wrappers for Python and a place in the cache: that saves a quarter of the compile time.
 """
 
 from __future__ import annotations
@@ -28,9 +27,8 @@ AttachCache = Callable[[Any, Callable[..., Any], bool], None]
 class Compiler:
     """``compiler(kernel)`` gives the compiled twin of a kernel; it takes the same arguments.
 
-    A twin is compiled at its first call. ``checked``: an index out of range raises IndexError; otherwise it goes
-    unnoticed. ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, ``numba``: the module, both from
-    ``numba_import``.
+    A twin is compiled at its first call. ``checked``: an index out of range raises IndexError, else it goes unnoticed.
+    ``attach_cache``: see ``AttachCache``. ``pipeline``: the passes, ``numba``: the module, both of ``numba_import``.
     """
 
     def __init__(
@@ -77,7 +75,8 @@ class Compiler:
 
     def _one_for_all_integers(self, compiled: Any) -> Any:
         """Make a function take any integer as int64: Numba would compile it again for each type and each constant."""
-        template, types = getattr(compiled, "get_call_template", None), self._types
+        template = getattr(compiled, "get_call_template", None)
+        types = self._types
         if template is None:  # private in Numba: without it everything works, but compiles longer
             return compiled
 

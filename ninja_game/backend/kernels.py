@@ -24,7 +24,7 @@ _PLACES, _NUMBERS = len(TRACED_FLOATS), len(TRACED_INTS)  # numbers of floats an
 
 @kernel
 def load_world(
-    levels: Sequence[TileMap],
+    maps: Sequence[TileMap],
     worlds: Sequence[World],
     index: int,
     kinds: Sequence[int],
@@ -33,20 +33,20 @@ def load_world(
     box: int,
 ) -> None:
     """Set the edges of level ``index`` and create its objects in a zeroed world ``index``."""
-    set_edges(levels[index], worlds[index])
-    populate(levels[index], worlds[index], kinds, counts, values)
+    set_edges(maps[index], worlds[index])
+    populate(maps[index], worlds[index], kinds, counts, values)
     worlds[index].ninja.box = box
 
 
 @kernel
-def step_world(levels: Sequence[TileMap], number: int, worlds: Sequence[World], index: int, keys: int) -> None:
+def step_world(maps: Sequence[TileMap], number: int, worlds: Sequence[World], index: int, keys: int) -> None:
     """Run one tick of world ``index`` in level ``number``."""
-    step(levels[number], worlds[index], keys)
+    step(maps[number], worlds[index], keys)
 
 
 @kernel
 def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
-    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player gave up."""
+    """Kill the ninja where it is, for a reason outside the rules: its time is over, or the player ended the try."""
     n = worlds[index].ninja
     kill(worlds[index], cause, 0, dx, dy, n.x, n.y)
 
@@ -60,7 +60,7 @@ def observe_object(worlds: Sequence[World], index: int, slot: int) -> tuple[int,
 
 @kernel
 def run_world(
-    levels: Sequence[TileMap],
+    maps: Sequence[TileMap],
     number: int,
     worlds: Sequence[World],
     index: int,
@@ -73,11 +73,11 @@ def run_world(
     World ``index`` runs in level ``number``. ``places`` (x, y of each tick in turn, px) and ``states`` (one per tick)
     receive the ninja's values after each tick.
     """
-    level = levels[number]
+    tiles = maps[number]
     w = worlds[index]
     n = w.ninja
     for tick in range(len(inputs)):
-        step(level, w, int(inputs[tick]))
+        step(tiles, w, int(inputs[tick]))
         places[2 * tick] = canonical(n.x)
         places[2 * tick + 1] = canonical(n.y)
         states[tick] = n.state
@@ -88,7 +88,7 @@ def run_world(
 
 @kernel
 def trace_world(
-    levels: Sequence[TileMap],
+    maps: Sequence[TileMap],
     number: int,
     worlds: Sequence[World],
     index: int,
@@ -105,15 +105,14 @@ def trace_world(
 
     World ``index`` runs in level ``number``. ``ninja``: TRACED_FLOATS of each tick in turn; ``numbers``: TRACED_INTS.
     ``places``: x, y of each object in ``slots``; ``statuses``: one per object; ``switched``: 1 for a door that is not
-    in its first state. ``events``: MAX_EVENTS numbers per tick, those of the events plus 1, 0 after the last. An empty
-    array records nothing.
+    in its first state. ``events``: MAX_EVENTS per tick, their numbers plus 1, then 0. An empty array records nothing.
     """
-    level = levels[number]
+    tiles = maps[number]
     w = worlds[index]
     n = w.ninja
     count = len(slots)
     for tick in range(len(inputs)):
-        step(level, w, int(inputs[tick]))
+        step(tiles, w, int(inputs[tick]))
         place, fact = _PLACES * tick, _NUMBERS * tick
         # The order of TRACED_FLOATS and of TRACED_INTS.
         ninja[place] = canonical(n.x)
@@ -144,7 +143,7 @@ def trace_world(
 
 @kernel
 def run_worlds(
-    levels: Sequence[TileMap], level_of: Any, worlds: Sequence[World], inputs: Any, first: int, last: int, stop: int
+    maps: Sequence[TileMap], level_of: Any, worlds: Sequence[World], inputs: Any, first: int, last: int, stop: int
 ) -> int:
     """Run worlds ``first`` … ``last`` - 1 for all rows of ``inputs`` (ticks x worlds); gives the number of ticks run.
 
@@ -153,11 +152,11 @@ def run_worlds(
     """
     ticks = 0
     for index in range(first, last):
-        level = levels[level_of[index]]
+        tiles = maps[level_of[index]]
         w = worlds[index]
         for tick in range(len(inputs)):
             if stop and w.outcome:
                 break
-            step(level, w, int(inputs[tick, index]))
+            step(tiles, w, int(inputs[tick, index]))
             ticks += 1
     return ticks

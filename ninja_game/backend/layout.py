@@ -1,8 +1,7 @@
 """The compiled memory: the schema as NumPy records, so that a save-state is one copy of bytes.
 
 Kinds overlap: an object's record has the common header, then the fields of all kinds in the same bytes. A field that
-several kinds declare has one place. Offsets are given explicitly; NumPy would otherwise lose the alignment of nested
-records.
+several kinds declare has one place. Offsets are explicit: NumPy would lose the alignment of nested records.
 """
 
 from __future__ import annotations

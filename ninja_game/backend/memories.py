@@ -56,11 +56,11 @@ PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compil
 
 @dataclass
 class _Process:
-    """What this process has made and done."""
+    """The state of this process, which chooses the memory of its runs."""
 
     kernels: dict[tuple[Callable[..., Any], bool], Any] = field(default_factory=dict)  #: by kernel and ``checked``
     failures: list[str] = field(default_factory=list)  #: why the compiled memory cannot be used
-    short_work: int = 0  #: of the runs that were short enough for the plain memory; at most PLAIN_WORK
+    short_work: int = 0  #: work of the runs so far that were short enough for the plain memory; at most PLAIN_WORK
 
 
 _PROCESS = _Process()
@@ -144,7 +144,8 @@ def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
     """Count a run that begins now, or let a process compile its missing kernels; whether it is on the plain memory."""
     if not _has_choice(memory, checked=checked):
         return False
-    little, missing = _PROCESS.short_work + work <= PLAIN_WORK, warm_up(checked=checked)
+    little = _PROCESS.short_work + work <= PLAIN_WORK
+    missing = warm_up(checked=checked)
     _PROCESS.short_work += work if little and not missing else 0
     return little or missing
 

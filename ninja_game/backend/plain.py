@@ -22,7 +22,7 @@ from ninja_game.backend.worlds import (
 )
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles, object_table
+from ninja_game.sim.loader import object_table, tile_map
 from ninja_game.sim.schema.declare import fields_of, getter_of, scalars_of, setter_of
 from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import MAX_EVENTS, Event, Ninja, TileMap, World
@@ -32,21 +32,14 @@ PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[
 """A save-state of a plain world: scalars, ninja, cell heads, edges, objects. It never changes."""
 
 
-def tile_map(data: Level) -> TileMap:
-    """A level as the rules read it."""
-    level = TileMap()
-    level.tiles = grid_tiles(data)
-    return level
-
-
-def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
+def load_plain(level: Level, box: bool) -> tuple[TileMap, World]:
     """Load a level and a new world in it. Raises LevelError as ``object_table`` does."""
-    table = object_table(data)
-    level = tile_map(data)
+    table = object_table(level)
+    tiles = tile_map(level)
     w = World()
     w.objects += [Object() for _ in range(table.slots - 1)]
-    load_world([level], [w], 0, table.kinds, table.counts, table.values, int(box))
-    return level, w
+    load_world([tiles], [w], 0, table.kinds, table.counts, table.values, int(box))
+    return tiles, w
 
 
 _get_scalars, _set_scalars = getter_of(scalars_of(World)), setter_of(scalars_of(World))
@@ -199,7 +192,7 @@ class PlainWorlds(Worlds):
             w = self.fresh[number]
             slots = enumerate(w.objects[: w.slots_used])
             objects = [InitialObject(k, o.kind, o.x, o.y, o.partner if o.kind == EXIT else 0) for k, o in slots]
-            levels.append(InitialLevel(self.maps[number].tiles, objects, (w.ninja.x, w.ninja.y)))
+            levels.append(InitialLevel(self.maps[number].ids, objects, (w.ninja.x, w.ninja.y)))
         return levels
 
     def put_levels(self, numbers: Any, levels: Sequence[Level]) -> None:

@@ -100,7 +100,8 @@ class Batch:
         self.levels = [levels] if isinstance(levels, (Level, str)) else list(levels)
         if not self.levels:
             raise ArgumentError("0 levels; expected at least one")
-        self.count, self.threads = whole_number("count", count), thread_count(threads)
+        self.count = whole_number("count", count)
+        self.threads = thread_count(threads)
         self.body = body
         self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
         self.memory = self._worlds.name

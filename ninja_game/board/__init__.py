@@ -1,1 +1,1 @@
-"""The board: the runs of a folder, simulated again, told from copies, ranked, as data and as a report."""
+"""The board: simulates the runs of a folder, marks copies, ranks the rest; the result as data and as a report."""

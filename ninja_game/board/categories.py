@@ -75,20 +75,20 @@ class Category:
 
     @property
     def _shown(self) -> str:
-        """Its first formula, without the minus of ``greatest_first``."""
+        """The first formula, without the minus of ``greatest_first``."""
         return self.rank[0].strip()[self.greatest_first :].strip()
 
     @property
     def unit(self) -> str:
-        """The name of its first number above a table."""
+        """The heading of the first number's column."""
         return {"ticks": "Time", "score": "Score"}.get(self._shown, "Value")
 
     def text(self, value: float) -> str:
-        """Its first number for people."""
+        """The first number, as people read it."""
         return self.difference(-value if self.greatest_first else value)
 
     def measured(self, value: float) -> str:
-        """Its first number with a unit.
+        """The first number with its unit.
 
         >>> HIGHEST.measured(-3657), Category("Fewest keys", ("presses",)).measured(1)
         ('91.425 points', '1 press')
@@ -109,7 +109,7 @@ class Category:
         return f"same {self.unit.lower()}, " + _WORSE.get(rank, f"by {rank}")
 
     def difference(self, amount: float) -> str:
-        """The improvement of a first number, for people."""
+        """The improvement of a first number, as people read it."""
         if self.unit == "Value":
             return f"{amount:g}"
         return ("-" if amount < 0 else "") + seconds_text(round(abs(amount)))
@@ -142,7 +142,7 @@ DEFAULT_CATEGORIES = (FASTEST, HIGHEST)
 
 
 class BoardRules(NamedTuple):
-    """What a board ranks, and how."""
+    """The rules of a board, from its ``board.toml``: which runs it ranks, and by what."""
 
     categories: tuple[Category, ...] = DEFAULT_CATEGORIES
     name: str = ""  #: name of the board, "" for none
@@ -158,7 +158,9 @@ def read_rules(path: Path) -> BoardRules:
     except ValueError as error:
         raise FormatError(f"no TOML: {error}", file) from None
     others = dict(table)
-    title, unknown, tables = others.pop("name", ""), others.pop("unknown", PLAYED), others.pop("category", None)
+    title = others.pop("name", "")
+    unknown = others.pop("unknown", PLAYED)
+    tables = others.pop("category", None)
     if not isinstance(title, str) or len(title) > _MAX_NAME:
         raise FormatError("not the name of a board", file, expected=f"a text of at most {_MAX_NAME} characters")
     if unknown not in (PLAYED, ASSISTED):

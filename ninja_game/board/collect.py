@@ -56,10 +56,9 @@ class SentFile:
 
 @dataclass(frozen=True)
 class Sent:
-    """A recording as a chunk with one result. ``replay``: for one in our format.
+    """A recording as a chunk with one result. ``replay``: the parsed replay, if it is in our format.
 
-    ``claimed``: the final tick that it claims, if there are inputs after that, which are then run to their end; else
-    -1.
+    ``claimed``: the final tick that the replay claims, if inputs follow it; else -1. All inputs are run in both cases.
     """
 
     chunk: Chunk

@@ -46,11 +46,11 @@ ALIGNED = 4  # earlier runs whose inputs are aligned with a new one's: those wit
 
 @dataclass(frozen=True)
 class Course:
-    """The features for comparing runs."""
+    """The features of a run by which it is compared with other runs of its level."""
 
-    keys: bytes  #: those down in each tick
-    strokes: frozenset[int]  #: spans of the same keys: number among equal ones + 2^20 times keys + 2^24 times ticks
-    presses: frozenset[int]  #: keys pressed and released: one of eight numbers + 8 times the tick
+    keys: bytes  #: the keys that are down in each tick
+    strokes: frozenset[int]  #: spans of the same keys: number among equal spans + 2^20 times keys + 2^24 times ticks
+    presses: frozenset[int]  #: presses and releases of keys: one of eight numbers + 8 times the tick
     places: frozenset[float]  #: the ninja's places in whole pixels: x + 10^6 y
 
     def inputs_shared(self, other: Course) -> int:
@@ -75,26 +75,26 @@ def course_of(inputs: bytes, run: RunResult) -> Course:
 
 
 class Near(NamedTuple):
-    """Runs that are near to a course."""
+    """The runs nearest to a course."""
 
-    numbers: list[int]  #: of the runs, the nearest first
-    shared: str  #: the features shared with the first one, as the beginning of a sentence; "" for none
+    numbers: list[int]  #: their numbers, the nearest first
+    shared: str  #: the features shared with the nearest run, as the beginning of a sentence; "" for none
     by_inputs: bool  #: whether inputs are shared: on a short level with one obvious route people share only the path
 
 
 class Likeness(NamedTuple):
-    """What a run shares with the nearest run by another player."""
+    """The likeness of a run to the nearest run by another player."""
 
-    text: str  #: a sentence; "" for nothing
-    player: str  #: the other one
+    text: str  #: a sentence; "" if they share nothing
+    player: str  #: the other run's player
     earlier: bool  #: whether the other run is of an earlier moment
-    by_inputs: bool  #: as of Near
-    file: str = ""  #: of the other one
+    by_inputs: bool  #: as ``Near.by_inputs``
+    file: str = ""  #: the other run's file
     record: int = 0
 
 
 class Common:
-    """The courses with a feature, such as a place: a bit for each of their columns."""
+    """A table of bits: a row for each feature, such as a place; a column for each course, 1 if it has the feature."""
 
     def __init__(self) -> None:
         self._rows: dict[float, int] = {}
@@ -123,9 +123,9 @@ class Common:
 
 
 class Courses:
-    """The courses of the ``most`` fastest earlier runs of a level, each in a column, to compare a new one with all.
+    """The courses of the ``most`` fastest earlier runs of a level, with which a new run is compared.
 
-    ``numbers``: the number of each column's run.
+    ``numbers``: for each column of the tables (``Common``) the number of its run.
     """
 
     def __init__(self, most: int) -> None:
@@ -157,9 +157,10 @@ class Courses:
         self._places.mark(course.places, column, has=has)
 
     def near(self, course: Course) -> Callable[[NDArray[np.bool_]], Near]:
-        """A function of columns, chosen by truth values: the runs in them that are near to a course."""
+        """A function that gives the runs near to ``course`` among some columns, which truth values choose."""
         columns = len(self.numbers)
-        places, presses = self._places.counts(course.places, columns), np.zeros(columns, np.int64)
+        places = self._places.counts(course.places, columns)
+        presses = np.zeros(columns, np.int64)
         for shift in range(-SHIFTED, SHIFTED + 1):
             moved = (press + 8 * shift for press in course.presses)
             presses = np.maximum(presses, self._presses.counts(moved, columns))
@@ -180,7 +181,8 @@ class Courses:
                 if pressed[first]:
                     return Near(numbers, text, by_inputs=True)
             # Aligning is slow: only where the other tests do not decide.
-            strokes, ticks = self._strokes.counts(course.strokes, columns), len(course.keys)
+            strokes = self._strokes.counts(course.strokes, columns)
+            ticks = len(course.keys)
             most = nlargest(ALIGNED, np.flatnonzero(chosen).tolist(), key=strokes.__getitem__)
             shared = [(-course.inputs_shared(self._courses[column]), int(self.numbers[column])) for column in most]
             aligned = sorted(pair for pair in shared if pair[0])
@@ -220,8 +222,7 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
 def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[Run], list[Rejected]]:
     """The runs that are no copies, with near copies marked, and the copies.
 
-    If several players sent the same run at one moment, nobody knows who was first: all stay, with a remark. ``owners``:
-    as of Ledger.
+    If several players sent the same run at one moment, all stay, with a remark. ``owners``: as ``Ledger.owners``.
     """
     on_level: dict[str, list[Run]] = defaultdict(list)
     copies: list[Rejected] = []
@@ -241,7 +242,8 @@ def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[R
             first = next((copy for copy in same if copy.player == run.player), same[0])
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
-            why, kind = f"{what} {first.file}", OWN if run.episode and first.player == run.player else "copy"
+            why = f"{what} {first.file}"
+            kind = OWN if run.episode and first.player == run.player else "copy"
             copies.append(run.rejected(kind, why, first.key))
     together: dict[RunKey, str] = {}
     for same in ways.values():
@@ -253,11 +255,11 @@ def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[R
 
 
 def _marked(runs: list[Run], memo: Memo, together: Mapping[RunKey, str]) -> Iterator[Run]:
-    """The runs of a level, in order, each with a mark if it is near to earlier ones by others alone.
+    """The runs of a level, in order; a run that is near to earlier runs by other players alone gets a mark.
 
-    Of two of one moment nobody knows which was first: the second has the mark, and is no near copy. That is when the
-    board took them in: dates of an older board make no near copy. Nor is an assisted run one that names whose it was.
-    ``together``: marks of runs that are the same as others of their moment, in place of these.
+    A near copy is later than its origin by the moments at which this board took them in; dates of an older board do not
+    count. Of two runs of one moment the second only gets a mark. An assisted run that names its origin is no near copy.
+    ``together``: other marks, for runs that are equal to others of their moment.
     """
     if len({run.player for run in runs}) == 1:
         yield from runs
@@ -297,14 +299,15 @@ class _Compared:
 
     def begin_moment(self) -> None:
         """All runs added so far are of earlier moments."""
-        self._key, self._earlier = values_digest([self._key]), len(self._runs)
+        self._key = values_digest([self._key])
+        self._earlier = len(self._runs)
 
     def add(self, run: Run) -> None:
         self._key = self._key_of(run)
         self._runs.append(run)
 
     def likeness(self, run: Run) -> Likeness:
-        """What a run shares with the run by another player that it nearly copies, if it does."""
+        """The likeness of a run to the other player's run that it nearly copies; None if it does not."""
         noted = self._memo.recall(key := self._key_of(run))
         if isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool, str, int]:
             return Likeness(*noted)
@@ -334,8 +337,8 @@ def _near_to_another(
 ) -> Near | None:
     """The nearest runs by other players, if there are some.
 
-    Only runs before the player's own first near one count. ``players``: of the earlier runs; the first ``until_moment``
-    of these, of earlier moments, are preferred.
+    Only runs before the player's own first near run count. ``players``: the players of the earlier runs, in order; the
+    first ``until_moment`` of these runs, which are of earlier moments, are preferred.
     """
     numbers = earlier.numbers
     own = np.array([players[number] == player for number in numbers.tolist()], bool)

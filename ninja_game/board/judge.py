@@ -55,7 +55,7 @@ _WORDED = {
     "outcome": "only runs that reach the exit count",
     "in_time": "it takes longer than the level gives",
 }
-"""By field of STRICT: to the sender of a run that has another value."""
+"""The message to the sender of a run that breaks a demand, by field of STRICT."""
 
 _TYPES = tuple(get_type_hints(Judged).values())
 
@@ -67,7 +67,7 @@ class JudgedFile(NamedTuple):
     digest: str
     stamp: list[int]
     sent: list[Sent]  #: the runs to simulate now
-    rows: list[Judged]  #: its results
+    rows: list[Judged]  #: the file's results
 
 
 def judge(
@@ -110,13 +110,13 @@ def judge(
 
 
 def _parted(items: Iterable[Run | Rejected]) -> tuple[list[Run], list[Rejected]]:
-    """The runs, and the others."""
+    """The runs that count so far, and those that do not."""
     items = [*items]
     return [run for run in items if isinstance(run, Run)], [item for item in items if isinstance(item, Rejected)]
 
 
 def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
-    """The run with the dates that the ledger has of it."""
+    """The run with its dates in the ledger."""
     added, later = (of_run(run.key, run.way) if of_run else "" for of_run in (dates, taken))
     return replace(run, added=added, taken=later)
 
@@ -133,7 +133,7 @@ def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | Rejected:
 
 
 def _first_again(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
-    """The runs; one that was withdrawn, or is in another file now, keeps its date if its player sent it."""
+    """The runs with their first dates: a run that was withdrawn, or is in another file now, keeps its player's date."""
     known = {(run.level, run.way, run.added) for run in runs}
     for run in runs:
         owner = owners.get(way := (run.level, run.way))
@@ -156,7 +156,7 @@ def _named(item: Rejected, players: Players) -> Rejected:
 
 
 def _episodes(runs: list[Run], counted: Sequence[Run], shown: PublishedLevels) -> dict[str, list[list[Run]]]:
-    """By key the runs of whole episodes: every level's run counts, or repeats another run by the same player."""
+    """The runs of whole episodes by key: every level's run counts, or repeats another run by the same player."""
     lengths = {episode.key: len(episode.levels) for episode in shown.levels.episodes.values()}
     ways = {(run.player, run.level, run.way): run for run in counted}
     files: dict[tuple[str, str], list[Run]] = defaultdict(list)
@@ -269,7 +269,7 @@ def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
 
 
 def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
-    """A run with what only the ledger knows: it is confirmed, or near to one that may be gone.
+    """A run with the ledger's facts about it: whether it is confirmed, and the run that it nearly copies.
 
     ``owner``: the row of the player who was first; if several were first together, the row of its own file counts.
     """
@@ -283,10 +283,10 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
 
 
 def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -> Iterator[Run]:
-    """The runs; one from another folder than its player's own is marked, until one from there is confirmed.
+    """The runs with a mark on those from another folder than their player's own, until one from there is confirmed.
 
-    A folder is a player's own if most of its runs are by that player. Runs that the ledger has without a question, or
-    of their player's first moment, keep their places; any other waits.
+    A folder is a player's own if most of its runs are by that player. A marked run waits, unless the ledger has it
+    without a mark or it is of its player's first moment.
     """
     first: dict[str, str] = {}
     for run in runs:
@@ -362,7 +362,7 @@ def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
 
 
 def _impossible(result: Verdict, sent: Sent) -> str:
-    """What no keyboard can do in a run, in words."""
+    """A remark about the first keys in a run that no keyboard can press."""
     inputs = sent.inputs(result.ticks)
     odd = (keys != possible for keys, possible in zip(inputs, with_press_bits(inputs), strict=True))
     tick = next(compress(count(), odd))

@@ -1,4 +1,4 @@
-"""Results that one command caches for the next, only in the user's own cache folder."""
+"""A cache of results, from one command to the next, in the user's own cache folder only."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Memo:
         return self._before.keys() - self._now.keys()
 
     def save(self) -> None:
-        """Write it to its file. Raises FileError, OSError."""
+        """Write the cache to its file. Raises FileError, OSError."""
         if self.path and self._now != self._before:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps(self._now))

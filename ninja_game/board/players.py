@@ -82,7 +82,7 @@ def mixed_word(player: str) -> bool:
 class Players:
     """All players so far, each under the name as it was typed first."""
 
-    alike: dict[str, str] = field(default_factory=dict)  #: by player the earlier one with a similar name
+    alike: dict[str, str] = field(default_factory=dict)  #: the earlier player with a similar name, by player
     _names: dict[str, str] = field(default_factory=dict)
     _looks: dict[str, str] = field(default_factory=dict)
 

@@ -29,7 +29,7 @@ class Ranked:
     place: int  #: equal runs share one; a run that waits has 0
     run: Run
     values: tuple[float, ...]  #: the numbers that rank it
-    behind: float  #: by how much its first number is worse than the first run's
+    behind: float  #: the gap of its first number to the first run's
     is_far: bool  #: as ``Category.is_far``
 
 
@@ -153,7 +153,7 @@ class Ranking:
 
     @cached_property
     def places(self) -> dict[RunKey, list[tuple[Leaderboard, list[Ranked], int]]]:
-        """By run its tables, and its row in each."""
+        """The tables in which a run stands, and its row in each, by run."""
         rows_of: dict[RunKey, list[tuple[Leaderboard, list[Ranked], int]]] = defaultdict(list)
         for tables in self.tables.values():
             for leaderboard, table in tables.items():
@@ -173,7 +173,7 @@ class Ranking:
 
     @cached_property
     def history(self) -> dict[tuple[str, Leaderboard], list[Run]]:
-        """By level, ladder and category all records, in order; of one moment only the last."""
+        """All records in order, by level, ladder and category; of one moment only the last."""
         by_board: dict[tuple[str, Leaderboard], list[Run]] = defaultdict(list)
         for run in self.judged.runs:
             for category in self.categories:
@@ -196,7 +196,7 @@ class Ranking:
 
     @cached_property
     def standings(self) -> dict[str, list[Standing]]:
-        """By ladder all players, most levels led first."""
+        """All players, most levels led first, by ladder."""
         players_of: dict[str, dict[str, Standing]] = {ladder: {} for ladder in self.ladders}
         for run in self.judged.runs:
             players_of[run.ladder].setdefault(run.player, Standing(run.player)).runs += 1
@@ -226,7 +226,7 @@ class Ranking:
         return sorted(totals, key=itemgetter(1, 0))
 
     def whole(self, episode: Episode, leaderboard: Leaderboard) -> list[tuple[str, float, Sequence[Run]]]:
-        """The same for each player's best recording of the whole episode; one assisted run makes it assisted."""
+        """As ``episode``, for each player's best recording of the whole episode; one assisted run makes it assisted."""
         ladder, category = leaderboard
         best: dict[str, tuple[str, float, Sequence[Run]]] = {}
         for runs in self.judged.episodes.get(episode.key, ()):
@@ -239,7 +239,7 @@ class Ranking:
 
     @cached_property
     def beaten(self) -> Counter[str]:
-        """By level how often its records were beaten; empty if all runs came at one moment."""
+        """The number of times that a level's records were beaten, by level; empty if all runs came at one moment."""
         beaten = Counter[str]()
         for (level, _), runs in self.history.items():
             beaten[level] += len(runs) - 1
@@ -254,7 +254,7 @@ class Ranking:
         return sorted(close_levels, key=lambda level: (-self.beaten[level], close[level], -players[level]))
 
     def _close(self, level: str) -> float:
-        """The distance of the second run in the first category, on the ladder where it is closest."""
+        """The gap between the first two runs in the first category, on the ladder where it is smallest."""
         tables = (self.tables[level].get((ladder, self.categories[0]), ()) for ladder in self.ladders)
         return min((row.behind for table in tables for row in table[1:2] if row.place), default=inf)
 

@@ -78,7 +78,8 @@ def board_text(judged: ValidatedRuns, before: Ledger = NO_LEDGER) -> str:
         if old["way"] and key not in counting and row and row["kind"] not in ("copy", OWN):
             rejected[key] = row | {"record": key[1], "way": old["way"], "added": old["added"]}
     data["rejected"] = [rejected[key] for key in sorted(rejected)]
-    ways, names = {(run.level, run.way) for run in judged.runs}, (*_FIELDS["withdrawn"], *_KEPT)
+    ways = {(run.level, run.way) for run in judged.runs}
+    names = (*_FIELDS["withdrawn"], *_KEPT)
     withdrawn = sorted((way, row) for way, row in before.owners.items() if way not in ways)
     data["withdrawn"] = [{name: row[name] for name in names if name in row} for _, row in withdrawn]
     data["decisions"] = [decision._asdict() for _, decision in sorted(before.decisions.items())]
@@ -258,7 +259,7 @@ def board_news(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
 
 
 def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
-    """A line for each run of a ledger whose file is gone, with the present leader of its level."""
+    """Lines about runs of a ledger whose files are gone, with the present leaders of their levels."""
     judged = ranking.judged
     present = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
@@ -295,7 +296,7 @@ def plain(text: str) -> str:
 
 
 def unnamed(judged: ValidatedRuns) -> str:
-    """How to name the players of runs that do not say who played, such as demos of N; "" where all say it."""
+    """Advice on naming the players of nameless runs, such as demos of N; "" where all runs have a name."""
     nameless = sum(run.player.startswith("unknown (") for run in judged.runs)
     how = "name their players with: ninja-game convert FILE OUT --to replay --author NAME"
     return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 RunKey = tuple[str, int]  # a run's file, as a path in the folder, and its record there
 
 Dates = Callable[[RunKey, str], str]
-"""When the board first had a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" if unknown."""
+"""Gives the moment at which the board first had a run, by its key and way: UTC, 2026-01-31T12:00:00Z; "" if unknown."""
 
 RunRows = dict[tuple[str, Any], dict[str, Any]]
 
@@ -43,29 +43,29 @@ REJECTED_KINDS = {
 }
 """Reasons why a run does not count: in a line of a report, and on a page, of several and of one."""
 
-OWN = "own"  # a level of an episode that its player has sent before
+OWN = "own"  # kind of a level of an episode whose run the same player has sent before
 
 
 @dataclass(frozen=True)
 class Judged:
-    """The result of a recording, as plain values that can be cached; where nothing is said, as of Verdict."""
+    """The result of a recording, as plain values that can be cached; undescribed fields are those of Verdict."""
 
     record: int
     kind: str  #: "" for a run that counts, else one of REJECTED_KINDS
     why: str = ""  #: the reason if it does not count
     author: str = ""
-    level: str = ""  #: its digest
-    tick: int = -1  #: of the exit contact
+    level: str = ""  #: digest of its level
+    tick: int = -1  #: tick of the exit contact
     gold: int = 0
     score: int = 0  #: ticks
     way: str = ""  #: digest of the ninja's positions; also of a run that counts once the keeper calls it assisted
-    presses: int = 0  #: of all keys
+    presses: int = 0  #: presses of all keys
     jumps: int = 0  #: presses of the jump key
     made: str = ""
     assisted: bool | None = None
     co_authors: str = ""
     episode: str = ""
-    mark: str = ""  #: what no keyboard can do in it
+    mark: str = ""  #: a remark about keys that no keyboard can press, "" without such keys
 
 
 class Decision(NamedTuple):
@@ -81,17 +81,17 @@ class Decision(NamedTuple):
 
     @property
     def key(self) -> tuple[str, str, str]:
-        """The run that it is about, by level, way and folded player."""
+        """The run of the decision: its level, way and folded player."""
         return self.level, self.way, folded(self.player)
 
 
 class Ledger(NamedTuple):
-    """Earlier facts about a board."""
+    """The memory of a board: the facts of its last ranking, and the keeper's decisions."""
 
-    runs: RunRows  #: by file and record
-    rejected: RunRows  #: likewise
-    withdrawn: RunRows  #: by level and way the runs that counted once, and are gone now or do not count
-    decisions: dict[tuple[str, str, str], Decision]  #: by their ``key``
+    runs: RunRows  #: runs that counted, by file and record
+    rejected: RunRows  #: runs that did not count, by file and record
+    withdrawn: RunRows  #: runs that counted once and are gone now, or do not count any more, by level and way
+    decisions: dict[tuple[str, str, str], Decision]  #: decisions by their ``key``
 
     def decision(self, run: Run) -> Decision | None:
         """The keeper's decision on a run, if there is one."""
@@ -99,9 +99,9 @@ class Ledger(NamedTuple):
 
     @property
     def owners(self) -> RunRows:
-        """By level and way the row of who did it first; it may have ``near`` and ``confirmed``, as a run has.
+        """The first run of every way through a level, by level and way; ``near`` and ``confirmed`` as of a Run.
 
-        A run that is not by its player has none: whoever did it may send it.
+        Runs that the keeper has disowned are left out: their real player may still send them.
         """
         rows = self.withdrawn | {(row["level"], row["way"]): row for row in self.runs.values()}
         disowned = {decision.key for decision in self.decisions.values() if decision.what == DISOWNED}
@@ -118,16 +118,16 @@ class Run(Judged):
     file: str  #: path in the folder
     player: str
     entry: Entry = field(repr=False)
-    added: str  #: as of Dates
-    digest: str = field(repr=False)  #: of its file
+    added: str  #: the moment when the board first had it: UTC, or ""
+    digest: str = field(repr=False)  #: digest of its file
     folder: RunFolder = field(repr=False, compare=False)
     marks: tuple[str, ...] = ()  #: remarks for readers
     near: str = ""  #: the run that it nearly copies, a sentence
-    near_to: RunKey | None = None  #: its key, if the runs were compared now
+    near_to: RunKey | None = None  #: key of that run, if the runs were compared now
     untrusted: str = ""  #: a sentence, if its player's other runs are from another folder
-    confirmed: bool = False  #: by the keeper: not a copy, and by its player
+    confirmed: bool = False  #: whether the keeper confirmed it: not a copy, and by its player
     again: bool = False  #: it was withdrawn, and is the first of its moment
-    taken: str = ""  #: when this board took it in, if ``added`` is the date of an older board
+    taken: str = ""  #: the moment when this board first had it, if ``added`` is the date of an older board
     derived: bool = False  #: near to a run of one of its ``origins``
 
     @cached_property
@@ -160,7 +160,7 @@ class Run(Judged):
 
     @property
     def order(self) -> tuple[str, bool, bool, RunKey]:
-        """Its place in time: the earliest run owns its inputs. A level of an episode comes after single runs."""
+        """The run's place in time: the earliest run owns its inputs. Levels of episodes come after single runs."""
         return self.added, not self.again, bool(self.episode), self.key
 
     @property
@@ -176,7 +176,7 @@ class Run(Judged):
 
     @property
     def moved_in(self) -> str:
-        """When this board took it in."""
+        """The moment at which this board first had the run."""
         return self.taken or self.added
 
     @property
@@ -242,9 +242,9 @@ class Rejected:
     kind: str  #: one of REJECTED_KINDS, or OWN
     why: str
     player: str = ""
-    level: str = ""  #: its title
-    way: str = ""  #: as of Run, of one that was simulated to its end
-    added: str = ""  #: likewise
+    level: str = ""  #: title of its level
+    way: str = ""  #: as ``Run.way``, if it was simulated to its end
+    added: str = ""  #: as ``Run.added``, if it was simulated to its end
     first: RunKey | None = None  #: the run that it copies
 
 
@@ -253,7 +253,8 @@ class ValidatedRuns:
     """All runs of a folder."""
 
     runs: tuple[Run, ...]  #: runs that count, in the order in which they were added
-    rejected: tuple[Rejected, ...]  #: by file
+    rejected: tuple[Rejected, ...]  #: runs that do not count, by file
     again: tuple[Rejected, ...] = ()  #: levels of episodes that repeat an earlier run by the same player, of kind OWN
-    alike: Mapping[str, str] = field(default_factory=dict)  #: by player the earlier one with a similar name
-    episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)  #: by key, a run for each of the levels
+    alike: Mapping[str, str] = field(default_factory=dict)  #: the earlier player with a similar name, by player
+    #: Runs of whole episodes, by the episode's key; a run for each of its levels
+    episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)

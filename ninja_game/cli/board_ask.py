@@ -109,7 +109,8 @@ def _answer(
         if what not in ("rank", "best")
     ]
     if what == "inputs":
-        form, rows = TYPED, [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
+        form = TYPED
+        rows = [row | _inputs(run.inputs) for row, run in zip(rows, runs, strict=True)]
     elif what == "splits":
         table = table_of([run_splits(run, memory="auto") for run in runs], [])
         if not as_data:
@@ -168,7 +169,8 @@ def _category(ranking: Ranking, name: str | None) -> Category:
     """The category with this name, else the only one whose name contains it; None: the first."""
     if name is None:
         return ranking.categories[0]
-    words, names = name.casefold(), {category.name.casefold(): category for category in ranking.categories}
+    words = name.casefold()
+    names = {category.name.casefold(): category for category in ranking.categories}
     matches = [names[words]] if words in names else [category for known, category in names.items() if words in known]
     if len(matches) == 1:
         return matches[0]

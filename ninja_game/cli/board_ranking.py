@@ -1,4 +1,4 @@
-"""The ranking of a folder's runs, as of its last board where nothing else is named, and the options of its rules."""
+"""Ranks a folder's runs for the commands of boards: options default to those of the folder's last `board`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 LAST_LEVELS, LAST_LEDGER, LAST_RULES = "/levels", "/ledger", "/rules"  # keys of a memo: no path of a run begins so
 
-NO_DATES = "no ledger: copies are told by the names of files (name it with --ledger)"
+NO_DATES = "no ledger: of two equal runs the first by file name is the original (name a ledger with --ledger)"
 
 levels_option = click.option(
     "--levels",
@@ -74,8 +74,7 @@ def ranking_of(
 ) -> tuple[Ranking, Ledger]:
     """The ranking of a folder's runs by the board's categories, and the earlier ledger with the present decisions.
 
-    ``same``: ``levels`` and ``rules`` that are not given are those of the folder's last board; so is ``ledger`` where
-    nothing is decided.
+    ``same``: missing ``levels`` and ``rules``, and without decisions ``ledger``, are those of the folder's last board.
     """
     from ninja_game.board.categories import BoardRules, read_rules
     from ninja_game.board.judge import judge

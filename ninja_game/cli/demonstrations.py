@@ -100,7 +100,8 @@ def demonstrations(
         learn.write_npz(output, episodes)
     else:
         learn.write_minari(str(dataset), episodes, **settings)
-    steps, passed = sum(len(run.rewards) for run in episodes), sum(run.outcome == "exit" for run in episodes)
+    steps = sum(len(run.rewards) for run in episodes)
+    passed = sum(run.outcome == "exit" for run in episodes)
     left_out = len(recordings) - len(episodes)
     text = f"{output or dataset}: {len(episodes)} demonstrations, {steps:,} steps, {passed} to the exit"
     click.echo(f"{text}, {left_out} left out" if left_out else text)

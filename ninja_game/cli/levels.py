@@ -52,7 +52,8 @@ def _print_findings(pack: Pack, findings: list[PackFinding]) -> int:
     for finding in open_findings:
         text = f"{pack.files.place(finding.place)}: {finding.text}" if finding.file else finding.text
         click.echo(f"{shown_text(text, 500)}. {finding.hint} [{finding.code}]")
-    count, accepted = len(open_findings), len({(finding.file, finding.code) for finding in findings if finding.reason})
+    count = len(open_findings)
+    accepted = len({(finding.file, finding.code) for finding in findings if finding.reason})
     parts = [counted(len(pack.episodes), "episode"), counted(len(pack.levels), "level")]
     parts.append(counted(count, "finding") if count else "nothing odd")
     parts += [f"{accepted} accepted"] if accepted else []

@@ -134,7 +134,7 @@ def compile(background: bool) -> None:  # noqa: A001 - the name of the command
 
 
 def compile_everything(processes: int, *, quiet: bool) -> None:
-    """Do a little of all work that needs kernels, most wanted first, in so many processes.
+    """Do a little of all work that needs kernels, most wanted first, in this many processes.
 
     Raises NinjaGameError where nothing is kept.
     """
@@ -157,7 +157,7 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
 
 
 WORK = ("runs and traces", "verdicts", "many worlds", "the solver", "searches in spans of runs", "what agents observe")
-"""What ``compile_for`` does, in this order."""
+"""The jobs of ``compile_for``, in this order."""
 
 
 def compile_for(name: str) -> None:

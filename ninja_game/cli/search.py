@@ -248,7 +248,7 @@ def search(
 
 
 def _advice(task: SpanTask, found: Sequence[SpanResult], results: Sequence[SpanResult]) -> Iterator[str]:
-    """What may help where nothing was found, or nothing sooner than in the run. ``results``: those that are better."""
+    """Advice if a search found no result, or none sooner than the run itself. ``results``: the better ones."""
     from ninja_game.search.formula.task import own_tick
 
     if not results:

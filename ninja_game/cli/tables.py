@@ -54,7 +54,8 @@ def show(tables: Sequence[Table]) -> None:
 
     console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else _WIDTH)
     for runs, rows in tables:
-        best, (name, *others) = runs[0], titles([run.recording for run in runs])
+        best = runs[0]
+        name, *others = titles([run.recording for run in runs])
         end = best.ticks - (best.outcome != "running")
         ends = ending_text(best.outcome, best.ticks - 1, best.death)
         console.print(f"{name}: {ends}, {seconds_text(end)} s, {best.gold} gold")

@@ -1,151 +1,168 @@
-"""The brush: tiles by family and quarter, types of objects, the keys that choose them, and snaps."""
+"""The brush: the tile or object that is drawn, and the drafts that strokes of it give."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import NamedTuple
+from collections.abc import Iterable, Sequence
 
-from ninja_game.editor.motion import TILE_IDS, Motion
-from ninja_game.editor.specs import SWITCH_PART, carried, has_switch, object_type_name, points, settled, with_word, word
-from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.formats.ascii.object_lines import SIDES, ListedObject, natural_offset, read_object_line
-from ninja_game.sim import kinds
-from ninja_game.sim.grid import Cell, cell_of, middle_of
-from ninja_game.sim.level import ObjectSpec
-from ninja_game.sim.rules import CELL, HALF
-
-SNAPS: dict[str, float] = {"cell": CELL, "half": HALF, "quarter": HALF / 2, "px": 1.0}
-"""px between possible places of objects, by name; "cell": in the middle, or where the kind sits in a cell."""
-
-QUARTERS = "qwas"  # keys placed like the solid corner of a tile: upper left, upper right, lower left, lower right
-
-
-class Family(NamedTuple):
-    """Four tiles of one shape. ``key``: its digit, as in Ned (game.md §6); ``tiles``: by quarter."""
-
-    key: str
-    tiles: tuple[int, ...]
-
-
-FAMILIES = tuple(
-    Family(str(number), tuple(map(TILE_CHARS.index, chars)))
-    for number, chars in enumerate(("qwas", "tygh", "erdf", "uijk", '["_]', "TYGH", "ERDF", "UIJK"), 1)
+from ninja_game.editor import stamp as stamps
+from ninja_game.editor.draft import Draft, Tiles
+from ninja_game.editor.motion import SYMMETRIES, Motion
+from ninja_game.editor.palette import (
+    EMPTY,
+    FULL,
+    OBJECT_TYPE_NAMES,
+    SNAPS,
+    object_of_type,
+    object_type_of,
+    placed,
+    snapped,
 )
-"""The families of tiles. Halves by quarter: left, upper, lower, right."""
+from ninja_game.editor.specs import has_switch, with_word
+from ninja_game.formats.ascii.object_lines import SIDES
+from ninja_game.sim.grid import Cell, Point, cell_of
+from ninja_game.sim.kinds import DOOR, NINJA
+from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.rules import CELL
 
-EMPTY, FULL = 0, 1
-TILE_KEYS = {EMPTY: "0", FULL: "9"}  # the keys of the tiles without a family
+CURVES = ("line", "ellipse")
+SHAPES = ("rectangle", *CURVES)
+SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
+NEAREST = "nearest"  # doors go to the side nearest to the pointer
 
-_SHAPES = ("45° slope", "hollow curve", "round curve", "22° thin", "22° thick", "67° thin", "67° thick")
-_CORNERS = ("lower left", "lower right", "upper right", "upper left")
-_TILE_NAMES = (
-    "empty", "full tile", *(f"{shape} {corner}" for shape in _SHAPES for corner in _CORNERS),
-    "lower half", "right half", "upper half", "left half",
-)  # fmt: skip
+_MIN_STEP = 12.0  # the least px between objects that fill a box
 
-
-def tile_name(tile: int) -> str:
-    return _TILE_NAMES[tile] if tile in TILE_IDS else f"odd tile {tile}"
+Ends = Sequence[tuple[Cell, ...]]  # the cells at each end of a line
 
 
-class ObjectType(NamedTuple):
-    """A type of object in the palette. ``key``: its letter, pressed with Shift; ``line``: its first properties."""
+class Brush:
+    """What is drawn, and how. Its methods change no draft, but give another one; points are px of the level.
 
-    name: str
-    key: str
-    line: str
+    ``slopes`` of a method: whether slopes set themselves around the tiles that it draws.
+    """
+
+    def __init__(self) -> None:
+        self.snap = "cell"  #: of SNAPS
+        self.spacing = CELL  #: of objects along a line or ellipse, px, of SPACINGS
+        self.slopes = False  #: whether slopes are automatic
+        self.reset()
+
+    def reset(self) -> None:
+        """Take the first tile, without a symmetry."""
+        self.symmetry = "off"  #: of SYMMETRIES
+        self.draws_objects = False  #: whether the object is drawn, not the tile
+        self.tile = FULL
+        self.spec: ObjectSpec = object_of_type("gold")
+        self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
 
     @property
-    def spec(self) -> ObjectSpec:
-        listed = read_object_line(self.line)[0]
-        assert isinstance(listed, ListedObject)  # noqa: S101 - the table below holds objects only
-        return listed.spec
+    def state(self) -> tuple[object, ...]:
+        """All that is set."""
+        return (
+            self.draws_objects, self.tile, self.spec, self.nearest, self.symmetry, self.snap, self.spacing, self.slopes
+        )  # fmt: skip
 
+    @property
+    def draws_one(self) -> bool:
+        """Whether its object is placed one at a time: a ninja, and what has a switch to place."""
+        return self.draws_objects and (self.spec.kind == NINJA or has_switch(self.spec))
 
-OBJECT_TYPES = tuple(
-    ObjectType(name, key, f"{name} {rest}")
-    for name, key, rest in (
-        ("ninja", "n", "1,1"),
-        ("exit", "e", "1,1 switch 1,1"),
-        ("gold", "g", "1,1"),
-        ("mine", "i", "1,1"),
-        ("locked door", "k", "1,1 right switch 1,1"),
-        ("trap door", "r", "1,1 right switch 1,1"),
-        ("automatic door", "a", "1,1 right"),
-        ("one-way", "o", "1,1 up"),
-        ("launch pad", "p", "1,1 up"),
-        ("bounce block", "b", "1,1"),
-        ("thwump", "t", "1,1 down"),
-        ("floor guard", "f", "1,1"),
-        ("zap drone", "z", "1,1 surface-cw right"),
-        ("laser drone", "l", "1,1 alternating right"),
-        ("chaingun drone", "c", "1,1 alternating right"),
-        ("gauss turret", "u", "1,1"),
-        ("homing launcher", "h", "1,1"),
-    )
-)
-"""All objects; each key is a letter of the name, and no command's."""
+    def pick_up(self, what: int | ObjectSpec) -> None:
+        """Take a tile, or an object of the palette; others change nothing."""
+        if isinstance(what, int):
+            self.tile, self.draws_objects = what, False
+        elif object_type_of(what) in OBJECT_TYPE_NAMES:
+            self.spec, self.draws_objects = what, True
 
-OBJECT_TYPE_NAMES = tuple(object_type.name for object_type in OBJECT_TYPES)
+    def turn(self, motion: Motion) -> None:
+        if self.draws_objects:
+            self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
+            self.nearest = self.nearest and self.spec.kind != DOOR
+        else:
+            self.tile = motion.tile(self.tile)
 
+    def put_word(self, name: str, text: str) -> None:
+        """Give its object a property."""
+        self.nearest = text == NEAREST if name == "side" else self.nearest
+        self.spec = self.spec if text == NEAREST else with_word(self.spec, name, text)
 
-def object_of_type(name: str) -> ObjectSpec:
-    """An object of the type with this name, at the first cell."""
-    return OBJECT_TYPES[OBJECT_TYPE_NAMES.index(name)].spec
+    def placed(self, draft: Draft, x: float, y: float, snap: str = "") -> ObjectSpec:
+        """Its object at a point. A door goes to a side that closes a gap between full tiles, if there is one."""
 
+        def is_gap(i: int, j: int) -> bool:
+            return all(draft.tile((column + k * i, row + k * j)) == FULL for k in (-1, 1))
 
-def object_type_of(spec: ObjectSpec) -> str:
-    name = object_type_name(spec)
-    return {"one-way platform": "one-way"}.get(name, name)
+        column, row = cell_of(x, y)
+        closing = (("left", "right") if is_gap(0, 1) else ()) + (("top", "bottom") if is_gap(1, 0) else ())
+        return placed(self.spec, x, y, snap or self.snap, (closing or SIDES) if self.nearest else ())
 
+    def with_stamp(self, draft: Draft, stamp: stamps.Stamp, *, slopes: bool, ends: Ends = ()) -> Draft:
+        """The draft with a stamp on it, in all images of the symmetry.
 
-def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
-    """The nearest place of a snap; with "cell" the middle of the cell."""
-    step = SNAPS[snap]
-    if snap == "cell":
-        return middle_of(cell_of(x, y))
-    return step * round(x / step), step * round(y / step)
+        ``ends``: of a line two cells thick; where slopes would make one pointed, it stays square.
+        """
+        images = SYMMETRIES[self.symmetry]
+        after = stamps.with_stamp(draft, stamp, images)
+        if not (slopes and set(stamp.tiles.values()) <= {EMPTY, FULL}):
+            return after
+        sloped = stamps.sloped(draft, after)
+        all_ends = [*ends, *(tuple(map(motion.cell, end)) for motion in images for end in ends)]
+        pointed = [end for end in all_ends if FULL not in map(sloped.tile, end)]
+        return sloped.with_tiles({cell: after.tile(cell) for end in pointed for cell in end})
 
+    def with_objects(self, draft: Draft, specs: Iterable[ObjectSpec]) -> Draft:
+        return self.with_stamp(draft, stamps.Stamp({}, tuple(specs)), slopes=False)
 
-def placed(spec: ObjectSpec, x: float, y: float, snap: str, sides: Collection[str] = SIDES) -> ObjectSpec:
-    """The brush's object at a point; doors on the nearest of these ``sides``, () for their own, the switch there.
+    def with_tiles(self, draft: Draft, cells: Iterable[Cell], *, slopes: bool) -> Draft:
+        """The draft with its tile in these cells."""
+        return self.with_stamp(draft, stamps.Stamp(dict.fromkeys(cells, self.tile)), slopes=slopes)
 
-    Drones sit in the middle of their cell, guards on its floor, whatever the snap.
-    """
-    px, py = snapped(x, y, snap)
-    if spec.kind == kinds.DOOR:
-        return _placed_door(spec, x, y, (px, py), sides)
-    if spec.kind == kinds.DRONE:
-        px, py = snapped(x, y, "cell")
-    elif spec.kind == kinds.FLOOR_GUARD:
-        py = CELL * cell_of(px, y)[1] + 18.0
-    elif snap == "cell":
-        direction = word(spec, "direction") if spec.kind == kinds.LAUNCH_PAD else ""
-        dx, dy = natural_offset(object_type_of(spec), direction)
-        px, py = px + dx, py + dy
-    values = (px, py, px, py) if spec.kind == kinds.EXIT else (px, py, *spec.values[2:])
-    return spec._replace(values=values)
+    def with_stroke(self, draft: Draft, start: Cell, end: Cell, tile: int, *, slopes: bool) -> Draft:
+        """The draft with a straight part of a line that is drawn by hand."""
+        cells = stamps.covered("line", start, end, 0.0)
+        cells += stamps.stair_cells(cells) if self.slopes and tile in (EMPTY, FULL) else []
+        return self.with_stamp(draft, stamps.Stamp(self._lined(cells, tile, draft)), slopes=slopes)
 
+    def _lined(self, cells: list[Cell], tile: int, draft: Draft) -> Tiles:
+        """The tiles of a line; with automatic slopes full ones fill its notches, those on the solid side of slopes."""
+        notches = stamps.behind(cells, tile) if self.slopes else []
+        return {cell: FULL for cell in notches if draft.tile(cell) == EMPTY} | dict.fromkeys(cells, tile)
 
-def _placed_door(spec: ObjectSpec, x: float, y: float, at: tuple[float, float], sides: Collection[str]) -> ObjectSpec:
-    column, row = cell_of(x, y)
-    right, down = x - CELL * column - HALF, y - CELL * row - HALF
-    towards = {"left": -right, "right": right, "top": -down, "bottom": down}
-    if sides and ((right, down) != (0.0, 0.0) or word(spec, "side") not in sides):
-        spec = with_word(spec, "side", max(sides, key=towards.__getitem__))
-    values = (*at, *spec.values[2:4], float(column), float(row), *spec.values[6:])
-    return settled(spec._replace(values=values))
+    def with_shape(
+        self, draft: Draft, shape: str, start: Point, end: Point, *, bend: float = 0.0, slopes: bool
+    ) -> Draft:
+        """The draft with one of SHAPES from a point to another. ``bend``: of a line, px to its right.
 
+        Tiles fill it; objects fill a box, and lie along a line or an ellipse.
+        """
+        if not self.draws_objects:
+            tiles, ends = self._tiles_of(draft, shape, cell_of(*start), cell_of(*end), bend)
+            return self.with_stamp(draft, stamps.Stamp(tiles), slopes=slopes, ends=ends)
+        corners = snapped(*start, self.snap), snapped(*end, self.snap)
+        if shape in CURVES:
+            places, snap = stamps.spaced_places(stamps.curve(shape, *corners, bend), self.spacing), "px"
+        else:
+            step, snap = max(SNAPS[self.snap], _MIN_STEP), self.snap
+            (x, right), (y, bottom) = (sorted(along) for along in zip(*corners, strict=True))
+            rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
+            places = [(x + step * i, y + step * j) for j in rows for i in columns]
+        return self.with_objects(draft, (self.placed(draft, *place, snap) for place in places))
 
-def with_switch(spec: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
-    px, py = snapped(x, y, snap)
-    old = points(spec)[SWITCH_PART] if has_switch(spec) else (px, py)
-    return carried(spec, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH_PART,))
-
-
-def cells_between(a: Cell, b: Cell) -> list[Cell]:
-    """The cells of a straight line from one cell to another, both included."""
-    steps = max(abs(b[0] - a[0]), abs(b[1] - a[1]), 1)
-    return [
-        (round(a[0] + (b[0] - a[0]) * k / steps), round(a[1] + (b[1] - a[1]) * k / steps)) for k in range(steps + 1)
-    ]
+    def _tiles_of(self, draft: Draft, shape: str, start: Cell, end: Cell, bend: float) -> tuple[Tiles, Ends]:
+        """The tiles of a shape, and the ends of a line two cells thick."""
+        cells = stamps.covered(shape, start, end, bend)
+        sloped = dict[Cell, int]()  # the shape from full tiles and slopes, where there is such a form
+        if self.slopes and self.tile == FULL and not bend and shape == "line":
+            sloped = stamps.ramp(start, end)
+        elif self.slopes and self.tile == FULL and shape == "ellipse":
+            column, row, *size = stamps.area_between(start, end)
+            sloped = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
+        if sloped:
+            # Slopes of the shape remove no tiles.
+            return {cell: tile for cell, tile in sloped.items() if tile == FULL or not draft.tile(cell)}, ()
+        if shape != "line":
+            return dict.fromkeys(cells, self.tile), ()
+        ramp = self.slopes and self.tile in (EMPTY, FULL)
+        band = stamps.ramp_cells(cells) if ramp else cells
+        thick = self.tile == FULL and len(band) > len(cells)
+        ends = ((band[0], band[len(cells)]), (cells[-1], band[-1])) if thick else ()
+        return self._lined(band, self.tile, draft), ends

@@ -87,7 +87,7 @@ def _solid_samples() -> list[frozenset[tuple[float, float]]]:
     here = STRIDE + 1
     shapes = []
     for tile in TILE_IDS:
-        tiles.tiles[here] = tile
+        tiles.ids[here] = tile
         shapes.append(frozenset((x, y) for x, y in _SAMPLES if solid_at(tiles, 12.0 + x, 12.0 + y)))
     return shapes
 

@@ -1,4 +1,4 @@
-"""Tests of a level under edit: where they begin, their routes, and the routes of its drones."""
+"""Playtests of a level under edit: where they begin, their routes, and the routes of its drones."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ from math import dist, isfinite
 from struct import iter_unpack
 from typing import NamedTuple
 
-from ninja_game.editor.brush import EMPTY, object_of_type, placed
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.palette import EMPTY, object_of_type, placed
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.formats.messages import FRAME_SIZE
 from ninja_game.runs.run import RunResult, run_level
+from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside, middle_of
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.sim.kinds import DOOR, NINJA
@@ -23,24 +24,24 @@ from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.rules import CELL, GOLD_RADIUS, RADIUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
-TICKS = TICKS_PER_SECOND  # ticks simulated for the overlay, and least ticks of a test before its message: a second
+TICKS = TICKS_PER_SECOND  # ticks simulated for the overlay, and least ticks of a playtest before its message: a second
 
 _AROUND, _FLOORS = 8, 16
-"""How many cells around a place, below it twice as many, and how many floors there, a test may begin on."""
+"""How many cells around a place, below it twice as many, and how many floors there, a playtest may begin on."""
 
 PathPoints = tuple[Point, ...]  # the ninja's place after each tick, px
 
 
-class Try(NamedTuple):
-    """A test of the level in its state at that time. ``inputs``: a byte per tick; ``over``: it cannot be continued."""
+class Playtest(NamedTuple):
+    """A play of the level in its state at that time. ``inputs``: a byte per tick; ``over``: it cannot be continued."""
 
     level: Level
     inputs: bytes
     over: bool
 
 
-class TestMap(NamedTuple):
-    """Many tests of a level: by cell the number of tests with the ninja in it; and the deaths, px."""
+class PlaytestMap(NamedTuple):
+    """Many playtests of a level: by cell the number of those with the ninja in it; and the deaths, px."""
 
     visits: Mapping[Cell, int]
     deaths: PathPoints
@@ -82,16 +83,54 @@ def round_of(level: Level) -> PathPoints:
     return tuple(after for _, after in places)
 
 
-def map_of(tries: Iterable[Try]) -> TestMap:
+def map_of(playtests: Iterable[Playtest]) -> PlaytestMap:
     visits: Counter[Cell] = Counter()
     deaths: list[Point] = []
-    for level, inputs, over in tries:
+    for level, inputs, over in playtests:
         # The tick of a death reads no input.
         whole = inputs + bytes([0]) * over
         run, route = run_of(level, whole), route_of(level, whole)
         visits.update(set(filter(is_inside, (cell_of(*place) for place in route if all(map(isfinite, place))))))
         deaths += route[-1:] if run and run.outcome == "dead" else ()
-    return TestMap(visits, tuple(deaths))
+    return PlaytestMap(visits, tuple(deaths))
+
+
+class Playtests:
+    """All playtests of a level under edit; those of other versions may have met objects that are gone.
+
+    ``shown``: those of the present version; ``last_deaths``: of the last of these; ``last_route``: of the last of all.
+    """
+
+    def __init__(self) -> None:
+        self._by_version: dict[Level, tuple[Playtest, ...]] = {}
+        self._version: Level | None = None
+        self.maps = NewestJob(map_of)
+        self.shown: tuple[Playtest, ...] = ()
+        self.last_route: PathPoints = ()
+        self.last_deaths: PathPoints = ()
+
+    def add(self, version: Level, playtest: Playtest) -> None:
+        """Add a playtest of a version. One that goes on after it was left is the same one."""
+        earlier = self._by_version.get(version, ())
+        last = earlier[-1] if earlier else None
+        if last and not last.over and last.level is playtest.level and playtest.inputs.startswith(last.inputs):
+            earlier = earlier[:-1]
+        self._by_version[version] = (*earlier, playtest)
+        self.last_route = route_of(playtest.level, playtest.inputs)
+        self._version = None
+        self.show(version)
+
+    def show(self, version: Level) -> None:
+        if version is self._version:
+            return
+        self._version, self.shown = version, self._by_version.get(version, ())
+        self.last_deaths = map_of(self.shown[-1:]).deaths
+        if self.shown:
+            self.maps.ask(self.shown)
+
+    @property
+    def map(self) -> PlaytestMap | None:
+        return self.maps.result if self.shown else None
 
 
 def with_ninja_at(draft: Draft, place: Point) -> Level:
@@ -99,7 +138,7 @@ def with_ninja_at(draft: Draft, place: Point) -> Level:
 
 
 def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
-    """The part of a run with which a test of a tick begins.
+    """The part of a run with which a playtest of a tick begins.
 
     It ends a second before, or where the ninja last stood if that is at most two seconds earlier.
     """
@@ -115,7 +154,7 @@ TOUCH = RADIUS + GOLD_RADIUS  # px between the ninja and gold or a switch that i
 
 
 def place_before(draft: Draft, place: Point, size: Cell = FRAME_SIZE, *, touch: bool = False) -> Point | None:
-    """Where the test of a message near a place begins, px; None: at the level's start.
+    """Where the playtest of a message near a place begins, px; None: at the level's start.
 
     It is a cell beside the frame, or nearer if there is no room; between walls it is below or above. A ninja that
     presses nothing lives there. Cells with a floor and on the side of the start are preferred. Instead of a cell in the

@@ -8,7 +8,7 @@ from pathlib import Path
 from time import monotonic
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.editor.solver import COMPILING, LOADING
+from ninja_game.editor.solver import preparing_text
 from ninja_game.errors import LinkError, NinjaGameError
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.tree import Tree
@@ -169,7 +169,8 @@ def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstac
         say(f"Certifying level {done + 1} of {len(levels)}, {names[done]}: {spent:.0f} s so far, {about}", share)
 
     if levels:
-        say(f"{LOADING if is_solver_compiled() else COMPILING}. You can go on with something else meanwhile", None)
+        preparing = preparing_text(compiles=not is_solver_compiled())
+        say(f"{preparing}. You can go on with something else meanwhile", None)
         compile_solver()
         say("Starting the search", None)
     all_found = certify_all(list(levels.values()), files, options, jobs=jobs, report=report)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
-from functools import partial
 from threading import Event, Lock
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -23,9 +22,12 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-LOADING, COMPILING = "Loading the solver", "Compiling the solver, the first time on a machine a minute or more"
-
 SECONDS = 20.0  # how long the solver looks for better runs
+
+
+def preparing_text(*, compiles: bool) -> str:
+    """What happens before the first search."""
+    return "Compiling the solver, the first time on a machine a minute or more" if compiles else "Loading the solver"
 
 
 @dataclass(eq=False)
@@ -47,6 +49,9 @@ class Certification:
     known: tuple[bytes, ...] = ()  #: inputs of runs of the level as it was before, tried first
     stopping: Event = field(default_factory=Event)  #: set to end it
     lock: AbstractContextManager[object] = field(default_factory=Lock)  #: around changes by either thread
+
+    def report(self, progress: Progress) -> None:
+        self.progress = progress
 
     def take(self, run: Replay) -> None:
         """Keep a run of the level if it is the fastest, or the fastest with all gold."""
@@ -105,8 +110,7 @@ class Solver:
 
             self.compiles = not is_solver_compiled()
             task = Task(certification.level, seconds=certification.seconds, others=certification.known)
-            report = partial(setattr, certification, "progress")
-            result = solve(task, report=report, on_better=certification.take, stop=certification.stopping)
+            result = solve(task, report=certification.report, on_better=certification.take, stop=certification.stopping)
             vain = certification.progress if not (result or certification.run or certification.end) else None
             obstacles = (obstacle(certification.level, 0, vain),) if vain else ()
         except BaseException as error:
@@ -137,8 +141,8 @@ class Certifier:
         if certification.end or certification.level is None:
             return certification.end
         if certification.progress is None:
-            why = COMPILING if self.solver.compiles else LOADING
-            why = why if self.is_compiling else "Another level's search comes first"
+            preparing = preparing_text(compiles=self.solver.compiles)
+            why = preparing if self.is_compiling else "Another level's search comes first"
             waited = self.waited if self.is_compiling else f"{self.waited} in the queue"
             return f"{why}: {waited}. Go on editing, or save and leave"
         ticks = certification.progress.ticks

@@ -101,6 +101,16 @@ def points(spec: ObjectSpec) -> dict[int, Point]:
     return {part: point for part, point in places.items() if all(map(isfinite, point))}
 
 
+def grip(spec: ObjectSpec) -> Point | None:
+    """Another place to take an object by, px: the middle of a door's or pad's cell, the side that a one-way closes."""
+    if spec.kind == DOOR and points(spec) and well_formed(spec):
+        return CELL * spec.values[4] + HALF, CELL * spec.values[5] + HALF
+    if spec.kind not in (LAUNCH_PAD, ONE_WAY) or not points(spec) or not (properties(spec) and word(spec, "direction")):
+        return None
+    a, b = PAD_NORMALS[word(spec, "direction")]
+    return spec.values[0] + HALF * a, spec.values[1] + HALF * b
+
+
 def carried(spec: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY_PART, SWITCH_PART)) -> ObjectSpec:
     """A spec after a motion of some of its parts; directions turn with the body."""
     kind, values = spec.kind, list(spec.values)

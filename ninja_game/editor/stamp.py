@@ -7,17 +7,18 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate, pairwise
-from math import cos, dist, hypot, inf, pi, sin, sqrt
+from math import ceil, cos, dist, hypot, inf, pi, sin, sqrt
 from typing import NamedTuple
 
-from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import FLIP, MIRROR, Motion
-from ninja_game.editor.specs import carried, points
+from ninja_game.editor.palette import EMPTY, FAMILIES, FULL, QUARTERS, cells_between
+from ninja_game.editor.specs import BODY_PART, carried, grip, points
+from ninja_game.formats.messages import messages_at
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
-from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.kinds import DOOR, EXIT, LAUNCH_PAD, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
-from ninja_game.sim.rules import CELL, HALF
+from ninja_game.sim.rules import CELL, HALF, WORLD_HEIGHT, WORLD_WIDTH
 
 CellArea = tuple[int, int, int, int]  # first column, first row, columns, rows
 ObjectPart = tuple[int, int]  # number of an object in its draft, and number of its part
@@ -201,6 +202,28 @@ def pasted(draft: Draft, stamp: Stamp, *, empty: bool = False) -> tuple[Draft, S
     return after, Selection(area_around(stamp.tiles) if stamp.tiles else None, frozenset(parts))
 
 
+def centred(stamp: Stamp, place: Point, step: float) -> Stamp:
+    """A stamp moved until its middle is near a place, and it is within the level if it fits.
+
+    It moves by whole cells if it has tiles, else by steps of so many px.
+    """
+    cells = [(CELL * column + at, CELL * row + at) for column, row in stamp.tiles for at in (0.0, CELL)]
+    # Only pads and doors may lie on the border's edge.
+    rims = [(spec, 0.0 if spec.kind in (DOOR, LAUNCH_PAD) else 0.5) for spec in stamp.objects]
+    ends = [(x + d, y + d) for spec, rim in rims for x, y in points(spec).values() for d in (-rim, rim)]
+    if not (cells or ends):
+        return stamp
+    step, moves = CELL if cells else step, []
+    sides = zip(*cells, *ends, strict=True)
+    for along, at, end in zip(sides, place, (WORLD_WIDTH, WORLD_HEIGHT), strict=True):
+        low, high = min(along), max(along)
+        by = step * round((at - (low + high) / 2) / step)
+        # The border stays free, by whole steps.
+        by += step * max(0, ceil((CELL - low - by) / step))
+        moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
+    return stamp.carried(Motion(dx=moves[0], dy=moves[1]))
+
+
 def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
     """The centre for turning a selection, px, so that cells fall onto cells; ``quarter``: by a quarter turn.
 
@@ -218,15 +241,21 @@ def turning_centre(draft: Draft, selection: Selection, *, quarter: bool) -> tupl
 
 
 def nearest_part(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
-    """The part of an object nearest to a point, within ``reach`` px; the newest of equally near ones."""
-    closest: ObjectPart | None = None
-    best = reach * reach
-    for number, spec in enumerate(draft.objects):
-        for part, (px, py) in points(spec).items():
-            distance = (px - x) ** 2 + (py - y) ** 2
-            if distance <= best:
-                closest, best = (number, part), distance
-    return closest
+    """The part of an object nearest to a point, within ``reach`` px; the newest of equally near ones.
+
+    Without one, and without a message in the cell there, the body of the object with the nearest ``grip``.
+    """
+    places = {(number, part): at for number, spec in enumerate(draft.objects) for part, at in points(spec).items()}
+    closest = _closest(places, (x, y), reach)
+    if closest or messages_at(draft.says, cell_of(x, y)):
+        return closest
+    near = [part for part, at in places.items() if part[1] == BODY_PART and dist(at, (x, y)) <= reach + HALF]
+    return _closest({part: at for part in near if (at := grip(draft.objects[part[0]]))}, (x, y), reach)
+
+
+def _closest(places: Mapping[ObjectPart, Point], point: Point, reach: float) -> ObjectPart | None:
+    distance, number, part = min(((dist(at, point), -n, -p) for (n, p), at in places.items()), default=(inf, 0, 0))
+    return (-number, -part) if distance <= reach else None
 
 
 _PIECES = 64  # straight pieces of a curve

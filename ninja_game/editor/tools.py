@@ -5,35 +5,27 @@ They know no window: points are px of the level.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from enum import StrEnum, auto
-from math import ceil
 
 from ninja_game.document import History
-from ninja_game.editor import brush, stamp as stamps
+from ninja_game.editor import palette, stamp as stamps
+from ninja_game.editor.brush import SHAPES, Brush
 from ninja_game.editor.draft import Draft, Tiles, changed_cells
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.specs import BODY_PART, has_switch, points, properties, with_word, word
-from ninja_game.formats.ascii.object_lines import SIDES
+from ninja_game.editor.specs import has_switch, points, properties, with_word
 from ninja_game.formats.messages import messages_at, parse_messages, with_message_moved
 from ninja_game.sim.grid import Cell, cell_of, is_inside, middle_of
-from ninja_game.sim.kinds import DOOR, EXIT, GOLD, LAUNCH_PAD, MINE, NINJA
+from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
 
-CURVES = ("line", "ellipse")
-SHAPES = ("rectangle", *CURVES)
 TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
 TAKES = ("both", "tiles", "objects")  # the choices of Select
-SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
 BEND = 12.0  # px per step of bending a line
-NEAREST = "nearest"  # doors go to the side nearest to the pointer
 DRAGGED = PICK_REACH = 12.0  # a press that moves farther than this is a drag; a nearer object is picked, px
 REACH = 17.32  # px within which an object is deleted (√300: game.md §6), or selected by a click
-
-
-Ends = Sequence[tuple[Cell, ...]]  # the cells at each end of a line
 
 
 class Gesture(StrEnum):
@@ -51,34 +43,13 @@ class Gesture(StrEnum):
     MESSAGE = auto()
 
 
-OTHER_KINDS = tuple(kind.name for kind in brush.OBJECT_TYPES if kind.spec.kind not in (NINJA, EXIT, DOOR))
-"""Types that an object can become: without single ones, and those with a side or a switch."""
-
-
-def can_be_remade(spec: ObjectSpec) -> bool:
-    return brush.object_type_of(spec) in OTHER_KINDS and BODY_PART in points(spec)
-
-
-def remade(spec: ObjectSpec, name: str) -> ObjectSpec:
-    """An object as one of OTHER_KINDS, with its place, direction and movement; an object of another kind stays."""
-    if not can_be_remade(spec):
-        return spec
-    place, made = points(spec)[BODY_PART], brush.object_of_type(name)
-    for shared in properties(made).keys() & properties(spec).keys() - {"type"}:
-        if word(spec, shared) in properties(made)[shared].words:
-            made = with_word(made, shared, word(spec, shared))
-    return brush.placed(made, *place, "cell" if brush.placed(spec, *place, "cell") == spec else "px")
-
-
 class EditorTools:
     """A draft with its history, the pointer, the present tool, the selection and the copy."""
 
     def __init__(self, draft: Draft) -> None:
         self.history = History(draft)
+        self.brush = Brush()
         self._take_first()
-        self.snap = "cell"
-        self.spacing = CELL  #: of objects along a line or ellipse, px, of SPACINGS
-        self.slopes = False  #: whether slopes are automatic
         self._bend = 0.0
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer
@@ -96,11 +67,9 @@ class EditorTools:
         self.gave_up: Callable[[ObjectSpec], object] = lambda _: None
 
     def _take_first(self) -> None:
-        self.tool, self.symmetry = "brush", "off"  #: one of TOOLS; a name
-        self.nearest = True  #: whether doors go to the side of a cell nearest to the pointer, not to their own
+        self.brush.reset()
+        self.tool = TOOLS[0]  #: one of TOOLS
         self.takes, self.pastes_empty = TAKES[0], False  #: whether empty cells of a copy remove tiles
-        self.draws_objects, self.tile = False, brush.FULL  #: whether the brush draws the spec, not the tile
-        self.spec: ObjectSpec = brush.object_of_type("gold")
 
     @property
     def draft(self) -> Draft:
@@ -118,13 +87,12 @@ class EditorTools:
     @property
     def about_objects(self) -> bool:
         """Whether keys are about objects: drawn, or selected."""
-        return self.draws_objects or bool(self.selection.parts)
+        return self.brush.draws_objects or bool(self.selection.parts)
 
     @property
     def effective_tool(self) -> str:
         """The tool that a press uses: a ninja, and an object with a switch to place, are placed one at a time."""
-        draws_one = self.draws_objects and (self.spec.kind == NINJA or has_switch(self.spec))
-        return "brush" if draws_one and self.tool not in ("select", "pick") else self.tool
+        return "brush" if self.brush.draws_one and self.tool not in ("select", "pick") else self.tool
 
     @property
     def is_dragging(self) -> bool:
@@ -187,16 +155,21 @@ class EditorTools:
             self._begin_to_draw(erase=erase)
 
     def _begin_to_draw(self, *, erase: bool) -> None:
+        brush = self.brush
         if self.effective_tool == "fill" and not erase:
-            tiles = {} if self.draws_objects else dict.fromkeys(stamps.filled(self.draft, self.cell), self.tile)
-            self._change(stamps.Stamp(tiles, self.next_objects if self.draws_objects else ()))
+            if brush.draws_objects:
+                filled = brush.with_objects(self.draft, self.next_objects)
+            else:
+                cells = stamps.filled(self.draft, self.cell)
+                filled = brush.with_tiles(self.draft, cells, slopes=self.sets_slopes)
+            self.history.change(filled)
             return
         if erase:
             self._gesture = Gesture.ERASE
         elif self.effective_tool in SHAPES:
             self._gesture = Gesture(self.tool)
         else:
-            many = not self.draws_objects or self.spec.kind in (GOLD, MINE)
+            many = not brush.draws_objects or brush.spec.kind in (GOLD, MINE)
             self._gesture = Gesture.DRAW if many else Gesture.DROP
         self.move(*self.pointer)
 
@@ -245,52 +218,29 @@ class EditorTools:
 
     def pick_up(self, what: int | ObjectSpec) -> None:
         self.finish()
-        if isinstance(what, int):
-            self.tile, self.draws_objects = what, False
-        elif brush.object_type_of(what) in brush.OBJECT_TYPE_NAMES:
-            self.spec, self.draws_objects = what, True
+        self.brush.pick_up(what)
         if self.tool in ("select", "pick"):
             self.tool = "brush"
 
     # --- drawing ---
 
     def placed(self, x: float, y: float, snap: str = "") -> ObjectSpec:
-        def is_gap(i: int, j: int) -> bool:
-            return all(self.draft.tile((column + k * i, row + k * j)) == brush.FULL for k in (-1, 1))
-
-        column, row = cell_of(x, y)
-        closing = (("left", "right") if is_gap(0, 1) else ()) + (("top", "bottom") if is_gap(1, 0) else ())
-        return brush.placed(self.spec, x, y, snap or self.snap, (closing or SIDES) if self.nearest else ())
-
-    def _change(self, stamp: stamps.Stamp, draft: Draft | None = None, ends: Ends = ()) -> None:
-        self.history.change(self._with(stamp, draft or self.draft, ends))
-
-    def _with(self, stamp: stamps.Stamp, draft: Draft, ends: Ends = ()) -> Draft:
-        """The draft with a stamp on it, in all images of the symmetry, and with automatic slopes.
-
-        ``ends``: of a line two cells thick; where slopes would make one pointed, it stays square.
-        """
-        images = SYMMETRIES[self.symmetry]
-        after = stamps.with_stamp(draft, stamp, images)
-        if not (self.sets_slopes and set(stamp.tiles.values()) <= {brush.EMPTY, brush.FULL}):
-            return after
-        sloped = stamps.sloped(draft, after)
-        all_ends = [*ends, *(tuple(map(motion.cell, end)) for motion in images for end in ends)]
-        pointed = [end for end in all_ends if brush.FULL not in map(sloped.tile, end)]
-        return sloped.with_tiles({cell: after.tile(cell) for end in pointed for cell in end})
+        """The brush's object at a point."""
+        return self.brush.placed(self.draft, x, y, snap)
 
     @property
     def sets_slopes(self) -> bool:
         """Whether slopes set themselves where the tool draws: a box has the corners that it is given."""
-        return self.slopes and not self.draws_objects and self.tool not in ("rectangle", "select", "pick")
+        return self.brush.slopes and not self.brush.draws_objects and self.tool not in ("rectangle", "select", "pick")
 
     @property
     def preview(self) -> Tiles:
         """The tiles that a press of the brush, or a fill, would change; kept while the pointer stays in its cell."""
-        key = self.draft, self.cell, self.effective_tool, self.tile, self.sets_slopes, self.symmetry
+        brush = self.brush
+        key = self.draft, self.cell, self.effective_tool, brush.tile, self.sets_slopes, brush.symmetry
         if key != self._previewed[0]:
             cells = stamps.filled(self.draft, self.cell) if self.effective_tool == "fill" else [self.cell]
-            after = self._with(stamps.Stamp(dict.fromkeys(cells, self.tile)), self.draft)
+            after = brush.with_tiles(self.draft, cells, slopes=self.sets_slopes)
             self._previewed = key, {cell: after.tile(cell) for cell in changed_cells(self.draft, after)}
         return self._previewed[1]
 
@@ -302,59 +252,29 @@ class EditorTools:
         """
         if self.effective_tool != "fill":
             return (self.placed(*self.pointer),)
-        key = self.draft, self.cell, self.spec, self.nearest
+        key = self.draft, self.cell, self.brush.spec, self.brush.nearest
         if key != self._filling[0]:
             cells = stamps.filled(self.draft, self.cell)
             self._filling = key, tuple(self.placed(*middle_of(cell), "cell") for cell in cells)
         return self._filling[1]
 
     def _draw_line(self, before: Cell, *, erasing: bool) -> None:
-        if not self.draws_objects:
-            tile, cells = 0 if erasing else self.tile, stamps.covered("line", before, self.cell, 0.0)
-            cells += stamps.stair_cells(cells) if self.slopes and tile in (brush.EMPTY, brush.FULL) else []
-            self._change(stamps.Stamp(self._lined(cells, tile, self.draft)))
+        if not self.brush.draws_objects:
+            tile = palette.EMPTY if erasing else self.brush.tile
+            stroke = self.brush.with_stroke(self.draft, before, self.cell, tile, slopes=self.sets_slopes)
+            self.history.change(stroke)
         elif erasing:
             self.delete_nearest()
         else:
-            self._change(stamps.Stamp({}, (self.placed(*self.pointer),)))
-
-    def _lined(self, cells: list[Cell], tile: int, draft: Draft) -> Tiles:
-        """The tiles of a line; with automatic slopes full ones fill its notches, those on the solid side of slopes."""
-        notches = stamps.behind(cells, tile) if self.slopes else []
-        return {cell: brush.FULL for cell in notches if draft.tile(cell) == brush.EMPTY} | dict.fromkeys(cells, tile)
+            self._place(self.draft, self.placed(*self.pointer))
 
     def _draw_shape(self) -> None:
-        """Tiles that fill it, or objects: they fill a box, and lie along a line or an ellipse."""
-        if not self.draws_objects:
-            cells = stamps.covered(self._gesture, cell_of(*self._pressed_at), self.cell, self._bend)
-            tiles, shaped = dict.fromkeys(cells, self.tile), dict[Cell, int]()
-            ends: Ends = ()
-            if self.slopes and self.tile == brush.FULL and not self._bend and self._gesture == Gesture.LINE:
-                shaped = stamps.ramp(cell_of(*self._pressed_at), self.cell)
-            elif self.slopes and self.tile == brush.FULL and self._gesture == Gesture.ELLIPSE:
-                column, row, *size = stamps.area_between(cell_of(*self._pressed_at), self.cell)
-                shaped = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
-            if shaped:
-                # Slopes of the shape remove no tiles.
-                rock = {cell for cell in shaped if self.history.began.tile(cell)}
-                tiles = {cell: tile for cell, tile in shaped.items() if tile == brush.FULL or cell not in rock}
-            elif self._gesture == Gesture.LINE:
-                ramp = self.slopes and self.tile in (brush.EMPTY, brush.FULL)
-                band = stamps.ramp_cells(cells) if ramp else cells
-                tiles = self._lined(band, self.tile, self.history.began)
-                if self.tile == brush.FULL and len(band) > len(cells):
-                    ends = (band[0], band[len(cells)]), (cells[-1], band[-1])
-            self._change(stamps.Stamp(tiles), self.history.began, ends)
-            return
-        corners = brush.snapped(*self._pressed_at, self.snap), brush.snapped(*self.pointer, self.snap)
-        if self._gesture in CURVES:
-            places, snap = stamps.spaced_places(stamps.curve(self._gesture, *corners, self._bend), self.spacing), "px"
-        else:
-            step, snap = max(brush.SNAPS[self.snap], 12.0), self.snap
-            (x, right), (y, bottom) = (sorted(along) for along in zip(*corners, strict=True))
-            rows, columns = (range(int(length // step) + 1) for length in (bottom - y, right - x))
-            places = [(x + step * i, y + step * j) for j in rows for i in columns]
-        self._change(stamps.Stamp({}, tuple(self.placed(*place, snap) for place in places)), self.history.began)
+        ends = self._pressed_at, self.pointer
+        began, slopes = self.history.began, self.sets_slopes
+        self.history.change(self.brush.with_shape(began, self._gesture, *ends, bend=self._bend, slopes=slopes))
+
+    def _place(self, draft: Draft, spec: ObjectSpec) -> None:
+        self.history.change(self.brush.with_objects(draft, (spec,)))
 
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether it is busy."""
@@ -366,17 +286,17 @@ class EditorTools:
     def _drop(self) -> None:
         spec = self.placed(*self.pointer)
         if has_switch(spec):
-            spec = brush.with_switch(self.placed(*self._pressed_at), *self.pointer, self.snap)
-        self._change(stamps.Stamp({}, (spec,)), self.history.began)
+            spec = palette.with_switch(self.placed(*self._pressed_at), *self.pointer, self.brush.snap)
+        self._place(self.history.began, spec)
 
     def _put_switch(self) -> None:
         if self._switchless is not None:
-            spec = brush.with_switch(self._switchless, *self.pointer, self.snap)
-            self._change(stamps.Stamp({}, (spec,)), self.history.began)
+            spec = palette.with_switch(self._switchless, *self.pointer, self.brush.snap)
+            self._place(self.history.began, spec)
 
     def delete_nearest(self, reach: float = REACH) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
-        places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
+        places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.brush.symmetry])]
         parts = [stamps.nearest_part(self.draft, *place, reach) for place in places]
         self.history.change(stamps.removed(self.draft, stamps.Selection(parts=frozenset(filter(None, parts)))))
 
@@ -434,8 +354,8 @@ class EditorTools:
         self._chosen_before = self.selection
 
     def _drag(self) -> None:
-        snap = "cell" if self._chosen_before.area else self.snap
-        (ax, ay), (bx, by) = brush.snapped(*self._pressed_at, snap), brush.snapped(*self.pointer, snap)
+        snap = "cell" if self._chosen_before.area else self.brush.snap
+        (ax, ay), (bx, by) = palette.snapped(*self._pressed_at, snap), palette.snapped(*self.pointer, snap)
         began = self.history.began
         motion = Motion(dx=bx - ax, dy=by - ay)
         if self._copies:
@@ -472,7 +392,7 @@ class EditorTools:
 
     def nudge(self, dx: float, dy: float) -> None:
         """Move the selection by steps of the snap, or of cells."""
-        step = CELL if self.selection.area else brush.SNAPS[self.snap]
+        step = CELL if self.selection.area else palette.SNAPS[self.brush.snap]
         draft, self.selection = stamps.moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
         self.history.change(draft)
 
@@ -493,11 +413,7 @@ class EditorTools:
         if self.selection:
             about = motion.about(*stamps.turning_centre(self.draft, self.selection, quarter=bool(motion.xy)))
             return self._carry(self.selection, about)
-        elif self.draws_objects:
-            self.spec = stamps.Stamp({}, (self.spec,)).carried(motion.about(36.0, 36.0)).objects[0]
-            self.nearest = self.nearest and self.spec.kind != DOOR
-        else:
-            self.tile = motion.tile(self.tile)
+        self.brush.turn(motion)
         return True
 
     def _carry(self, selection: stamps.Selection, motion: Motion) -> bool:
@@ -551,24 +467,7 @@ class EditorTools:
     @property
     def pasted(self) -> stamps.Stamp | None:
         """The stamp to paste at its place: its middle under the pointer, within the level if it fits."""
-        if self.ghost is None:
-            return None
-        cells = [(CELL * column + at, CELL * row + at) for column, row in self.ghost.tiles for at in (0.0, CELL)]
-        # Only pads and doors may lie on the border's edge.
-        rims = [(spec, 0.0 if spec.kind in (DOOR, LAUNCH_PAD) else 0.5) for spec in self.ghost.objects]
-        ends = [(x + d, y + d) for spec, rim in rims for x, y in points(spec).values() for d in (-rim, rim)]
-        if not (cells or ends):
-            return self.ghost
-        step = CELL if cells else brush.SNAPS[self.snap]
-        moves = []
-        sides = zip(*cells, *ends, strict=True)
-        for along, at, end in zip(sides, self.pointer, (WORLD_WIDTH, WORLD_HEIGHT), strict=True):
-            low, high = min(along), max(along)
-            by = step * round((at - (low + high) / 2) / step)
-            # The border stays free, by whole steps.
-            by += step * max(0, ceil((CELL - low - by) / step))
-            moves.append(by - step * max(0, ceil((high + by - end + CELL) / step)))
-        return self.ghost.carried(Motion(dx=moves[0], dy=moves[1]))
+        return stamps.centred(self.ghost, self.pointer, palette.SNAPS[self.brush.snap]) if self.ghost else None
 
     @property
     def chosen(self) -> ObjectSpec | None:
@@ -581,13 +480,12 @@ class EditorTools:
         """All objects with a selected part; without a selection the brush's object."""
         objects = self.draft.objects
         chosen = [objects[number] for number in sorted(self.selection.numbers) if number < len(objects)]
-        return chosen if self.selection else [self.spec]
+        return chosen if self.selection else [self.brush.spec]
 
     def put_word(self, name: str, text: str) -> None:
         """Give the subjects this property, as one edit."""
         if not self.selection:
-            self.nearest = text == NEAREST if name == "side" else self.nearest
-            self.spec = self.spec if text == NEAREST else with_word(self.spec, name, text)
+            self.brush.put_word(name, text)
         self.change_each(lambda spec: with_word(spec, name, text) if name in properties(spec) else spec)
 
     def change_each(self, change: Callable[[ObjectSpec], ObjectSpec]) -> None:

@@ -1,4 +1,4 @@
-"""What comes with the program: its levels, their certificates, and the files of ``assets``."""
+"""Files that come with the program: its levels, their certificates, and ``assets``."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ else:
 
 @contextmanager
 def locked(path: Path, seconds: float) -> Iterator[None]:
-    """Only one process at a time is within such a block for the same ``path``.
+    """A block that one process at a time can be in, for the same ``path``.
 
     The lock is on a hidden file next to it, which stays; the system frees it when a process dies. After ``seconds``, or
     without locks on this disk, the block continues without: a missing lock must not keep anyone from playing.

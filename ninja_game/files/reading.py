@@ -210,9 +210,9 @@ def file_type(mode: int) -> str:
 
 
 class IncludedFile(NamedTuple):
-    """A file that a text includes: its path, "" outside of its folder; its text, None if unreadable; the reason.
+    """A file that a text includes: its path, "" if outside the folder; its text, None if unreadable; the reason.
 
-    There is no reason if no regular file is there.
+    The reason is "" if there is no regular file.
     """
 
     path: str
@@ -225,7 +225,7 @@ _KNOWN: ContextVar[tuple[dict[str, IncludedFile], bool] | None] = ContextVar("kn
 
 @contextmanager
 def known_files(known: dict[str, IncludedFile], *, no_more: bool) -> Iterator[None]:
-    """For a while files come from ``known``, by name; others are read and noted there, or, ``no_more``, are errors."""
+    """In the block, texts come from ``known``, by name; other files are read and added, or with ``no_more`` errors."""
     token = _KNOWN.set((known, no_more))
     try:
         yield

@@ -116,7 +116,7 @@ def _entered(path: Path, at: int | None) -> int | None:
 
 
 def _replaceable(path: Path, at: int | None) -> os.stat_result | None:
-    """What ``replacing`` needs to know of the file with this name. Raises FileError for anything but a regular file."""
+    """The state of the file with this name, for ``replacing``. Raises FileError for anything but a regular file."""
     try:
         status = os.stat(named(path, at), dir_fd=at, follow_symlinks=False)
     except FileNotFoundError:

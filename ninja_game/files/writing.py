@@ -30,7 +30,7 @@ _tidied: set[Path] = set()  # folders that this process has cleared of killed wr
 def write_atomically(
     path: Path, fill: Callable[[IO[bytes]], object] | bytes | str, *, keep: Iterable[Path] = ()
 ) -> None:
-    """Put a file at ``path``, whole or not at all; when this returns it is on the disk.
+    """Write a file to ``path``, whole or not at all; when this returns it is on the disk.
 
     ``fill`` is the content, as for ``as_bytes``, or a function that writes it into a binary file. ``keep``: as in
     ``open_atomically``, with the same errors.

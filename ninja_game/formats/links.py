@@ -61,7 +61,7 @@ class ParsedLink:
 
 
 def link_kind(text: str | Path) -> LinkKind | None:
-    """Which kind of link a text, or a path made of it, looks like, valid or not; None for any other text.
+    """The kind of link that a text, or a path made of it, looks like, valid or not; None for any other text.
 
     A link begins with its #, or with an address before it; a file may have any other name.
 

@@ -60,22 +60,22 @@ class LevelMessage(NamedTuple):
 
     @property
     def place(self) -> tuple[float, float] | None:
-        """The middle of the cell near which it is shown, px; None for other moments."""
+        """The middle of the cell near which the message is shown, px; None for other moments than "at"."""
         return middle_of(self.cell) if self.when == "at" else None
 
     def is_about(self, x: float, y: float) -> bool:
-        """Whether a switch or gold at a point, px, is what it is about."""
+        """Whether the message is about a switch or gold at a point, px."""
         return self.cell == NO_CELL or cell_at(x, y) == cell_index(*self.cell)
 
     @property
     def frame(self) -> tuple[int, int, int, int]:
-        """Where the ninja is near the place: left column, upper row, number of columns and of rows."""
+        """The frame of cells in which the ninja is near the place: left column, upper row, columns, rows."""
         columns, rows = self.size
         return self.cell[0] - columns // 2, self.cell[1] - rows // 2, columns, rows
 
     @property
     def middle(self) -> tuple[float, float]:
-        """Of the frame, px."""
+        """The middle of the frame, px."""
         left, top, columns, rows = self.frame
         return CELL * (left + columns / 2), CELL * (top + rows / 2)
 
@@ -103,7 +103,7 @@ def unknown_words(text: str) -> list[str]:
 
 
 def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
-    """Those of TARGETS that these texts name.
+    """The names of TARGETS in these texts.
 
     >>> arrow_targets(["Go", "Now the {exit} is open"]), arrow_targets(["Go"])
     (['exit'], [])
@@ -113,7 +113,7 @@ def arrow_targets(texts: Iterable[str]) -> Sequence[str]:
 
 
 def header_form(text: str) -> str:
-    r"""How a file writes a text: in one line.
+    r"""A text as one line of a file.
 
     >>> header_form("Run,\nthen jump")
     'Run,\\nthen jump'

@@ -70,7 +70,7 @@ class Recording:
 
     @property
     def begun_by(self) -> str:
-        """The author whom a run that starts from this one names; for a run found by commands, the one that it names."""
+        """The author to name in a run that starts from this one; for a run found by commands, the one that it names."""
         made, file = self.replay.made, Path(self.file).name or self.name
         searched = made.searches and not (made.played or made.edits)
         return self.player or (made.begun_by if searched else f"unknown ({file_stem(file, 'no file')})")

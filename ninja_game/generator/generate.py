@@ -151,7 +151,8 @@ def _certified(scene: Scene, rng: Random, wanted: int, effort: Effort, stop: Eve
     if eased:
         shorter = solve(Task(scene.level, work=effort.shorten, first=run.inputs), stop=stop)
         if shorter and shorter.end_tick < run.end_tick:
-            run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=effort.tries)
+            run = shorter
+            measured = difficulty(scene.level, shorter.inputs, tries=effort.tries)
     return run, round(measured, 2)
 
 

@@ -60,7 +60,7 @@ def zaps(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
 
 
 def patrols(scene: Scene, rng: Random) -> Iterator[ObjectSpec]:
-    """Drones that go to and fro over a floor."""
+    """Drones that go back and forth over a floor."""
     kind = rng.choice(("zap drone", *WEAPONS))
     for run in scene.runs():
         if run.length >= 4:

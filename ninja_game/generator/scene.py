@@ -150,7 +150,8 @@ class RockBoard:
 
     def flip(self) -> None:
         """Swap left and right."""
-        self.ink, self.side = self.ink[:, ::-1], "left" if self.side == "right" else "right"
+        self.ink = self.ink[:, ::-1]
+        self.side = "left" if self.side == "right" else "right"
         self.vault_floor, self.gate = [list(map(mirrored, cells)) for cells in (self.vault_floor, self.gate)]
         self.danger_places = [(COLUMNS + 2 - x, y) for x, y in self.danger_places]
 

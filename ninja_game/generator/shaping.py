@@ -30,7 +30,7 @@ def masks() -> Ink:
     at = [(k + 0.5) * CELL / SAMPLES for k in range(SAMPLES)]
     tiles = TileMap()
     grids = []
-    for tiles.tiles[STRIDE + 1] in range(len(TILE_CHARS)):
+    for tiles.ids[STRIDE + 1] in range(len(TILE_CHARS)):
         grids.append([[solid_at(tiles, x, y) for x in at] for y in at])
     return np.array(grids)
 

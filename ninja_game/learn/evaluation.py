@@ -25,7 +25,7 @@ ActionStream: TypeAlias = Iterator[NDArray[np.integer]]
 
 
 class Agent(Protocol):
-    """What plays in an evaluation. ``settings``: the keywords of the agent's environment."""
+    """An agent under evaluation. ``settings``: the keywords of its environment."""
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -58,10 +58,10 @@ class LevelResult:
     """
 
     level: str
-    episodes: int  #: how many were played
+    episodes: int  #: number of episodes played
     passed: int
     dead: int
-    late: int  #: how many ended at the time limit
+    late: int  #: number of episodes that ended at the time limit
     ticks: float
     gold: float
     reward: float

@@ -122,8 +122,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     def step(self, actions: Any) -> tuple[Observed, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Infos]:
         """Run one step of every world.
 
-        Raises InvalidAction for invalid actions, ResetNeeded before the first reset and, without autoreset, for worlds
-        that have ended.
+        Raises InvalidAction; ResetNeeded before the first reset and, without autoreset, for worlds that have ended.
         """
         self._refuse_closed()
         if not self._reset_before:

@@ -71,7 +71,7 @@ def advance_worlds(
     total = 0
     for k in range(first, last):
         index = indices[k]
-        level = maps[level_of[index]]
+        tiles = maps[level_of[index]]
         w = worlds[index]
         down = int(keys[index])
         if repeat:
@@ -87,7 +87,7 @@ def advance_worlds(
         event_bits = 0
         crowded = False
         for _ in range(frame_skip):
-            step(level, w, with_press_bit(down, w.ninja.jump_held))
+            step(tiles, w, with_press_bit(down, w.ninja.jump_held))
             for event in range(w.event_count):
                 event_bits |= 1 << w.events[event].kind
             if w.event_count >= MAX_EVENTS:
@@ -125,7 +125,7 @@ class EnvState:
     levels: Indices
     states: Any = field(repr=False)  #: the save-states
     starts: NDArray[np.float64] = field(repr=False)  #: ticks to the exit at the start of each episode
-    facts: NDArray[np.int64] = field(repr=False)  #: its rows are those of ``EnvWorlds``, a column per world
+    facts: NDArray[np.int64] = field(repr=False)  #: the rows of ``EnvWorlds.facts``, a column per world
     owner: tuple[Any, ...] = field(repr=False)
 
 

@@ -111,7 +111,7 @@ class EpisodeSet(NamedTuple):
     key: str
     name: str
     columns: tuple[str, ...]  #: their names, from the left
-    episodes: dict[int, Episode]  #: by number, 0 to 99
+    episodes: dict[int, Episode]  #: episodes by number, 0 to 99
     singles: tuple[Entry, ...]
     pack: Pack | None = None
 

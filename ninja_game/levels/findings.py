@@ -13,8 +13,7 @@ from ninja_game.sim.grid import Cell
 class Wording(NamedTuple):
     """The words of a finding. ``text``: the oddity, with {values}; ``hint``: how to fix it.
 
-    ``about_switch``: whether a switch is odd. ``expected``: the right content of the file, for makers who edit it as
-    text.
+    ``about_switch``: whether a switch is odd. ``expected``: the right content, for makers who edit the file as text.
     """
 
     text: str

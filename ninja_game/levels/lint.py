@@ -20,10 +20,10 @@ from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.grid import cell_at, grid_remove
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, makes_object, well_formed
-from ninja_game.sim.loader import grid_tiles
+from ninja_game.sim.loader import tile_map
 from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.schema.object_fields import Object
-from ninja_game.sim.schema.world_fields import CAPACITY, TileMap, World
+from ninja_game.sim.schema.world_fields import CAPACITY, World
 from ninja_game.sim.states import LOCKED, TRAP
 
 Squares = dict[tuple[float, float], set[tuple[float, float]]]  # places, px, by the square (column, row) that holds them
@@ -52,10 +52,9 @@ class Ground:
     """
 
     def __init__(self, level: Level) -> None:
-        self.level = TileMap()
-        self.level.tiles = grid_tiles(level)
+        self.tiles = tile_map(level)
         world = World()
-        tiles.set_edges(self.level, world)
+        tiles.set_edges(self.tiles, world)
         self.edges: list[int] = list(world.edges)
         self.objects = level.objects
         specs = [spec for spec in self.objects if spec.kind == kinds.DOOR and well_formed(spec)]
@@ -71,16 +70,19 @@ class Ground:
             ("the ninja's start", _in_squares([ninjas[-1].values] if start else [], _COVER_PX), _DEADLY),
         ]
         # A ninja that starts in a tile may be pushed out on any side, so nothing is certain.
-        self.is_certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
+        self.is_certain = bool(start) and tiles.SHAPE[self.tiles.ids[start]] == tiles.EMPTY
         self.cells: set[int] = set()
         if self.is_certain:
             self._fill(start)
 
     def is_full(self, cell: int) -> bool:
-        return bool(tiles.SHAPE[self.level.tiles[cell]] == tiles.FULL)
+        return bool(tiles.SHAPE[self.tiles.ids[cell]] == tiles.FULL)
 
     def can_touch(self, x: float, y: float, radius: float) -> bool:
-        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px); True if uncertain."""
+        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px, or as of ``_around``).
+
+        True if uncertain.
+        """
         near = (cell for cell in _cells_around(cell_at(x, y)) if cell in self.cells)
         return not self.is_certain or any(_touches(cell, x, y, radius) for cell in near)
 
@@ -92,7 +94,7 @@ class Ground:
 
     def is_in_wall(self, x: float, y: float, radius: float) -> bool:
         """Whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
-        if not (cell_at(x, y) and solid_at(self.level, x, y)):
+        if not (cell_at(x, y) and solid_at(self.tiles, x, y)):
             return False
         reach = radius + rules.RADIUS + _BETWEEN
         steps = [2.0 * step for step in range(-int(reach / 2), int(reach / 2) + 1)]
@@ -102,7 +104,7 @@ class Ground:
     def _fits_at(self, x: float, y: float) -> bool:
         """Whether the ninja's centre could be here with the ninja outside of all tiles."""
         reached = cell_at(x, y) in self.cells or not self.is_certain
-        return reached and not any(solid_at(self.level, x + a, y + b) for a, b in _RIM)
+        return reached and not any(solid_at(self.tiles, x + a, y + b) for a, b in _RIM)
 
     def _fill(self, start: int) -> None:
         """Reach cell after cell. A locked door is tested whenever the fill reaches a cell around its switch."""
@@ -141,13 +143,13 @@ class Ground:
 
     def _has_gap(self, cell: int, neighbour: int) -> bool:
         """Whether the solid faces on both sides of a border leave a gap: two full faces are no edge."""
-        if tiles.EMPTY in (tiles.SHAPE[self.level.tiles[cell]], tiles.SHAPE[self.level.tiles[neighbour]]):
+        if tiles.EMPTY in (tiles.SHAPE[self.tiles.ids[cell]], tiles.SHAPE[self.tiles.ids[neighbour]]):
             return True
         x, y = ((at[cell] + at[neighbour]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
         dx, dy = ((at[neighbour] - at[cell]) / rules.CELL for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
         for k in _ALONG:
             sides = ((x + dy * k + dx * by, y + dx * k + dy * by) for by in (-_BESIDE, _BESIDE))
-            if not any(solid_at(self.level, *place) for place in sides):
+            if not any(solid_at(self.tiles, *place) for place in sides):
                 return True
         return False
 
@@ -371,6 +373,8 @@ def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield level_finding("in-border") if border else level_finding("in-tile", what=_IN_TILE[spec.kind])
     elif spec.kind in (kinds.DRONE, kinds.THWUMP) and ground.is_full(cell):
         yield level_finding("in-full-tile")
+    elif spec.kind in _TOUCHED:
+        yield from _untouched(ground, x, y, _TOUCHED[spec.kind])
 
 
 _IN_TILE = {
@@ -382,9 +386,22 @@ _IN_TILE = {
 }
 
 
+def _around(half: float) -> float:
+    """The radius of a disc that a ninja touches wherever it touches a box, px; it stays in the cells around that."""
+    return sqrt(2.0) * (half + rules.RADIUS) - rules.RADIUS
+
+
+_TOUCHED = {
+    kinds.LAUNCH_PAD: rules.PAD_RADIUS,
+    kinds.BOUNCE_BLOCK: _around(rules.BLOCK_HALF),
+    kinds.ONE_WAY: _around(rules.ONE_WAY_HALF),
+}
+"""Kinds that do nothing where no ninja touches them, with their radius, px. Mines, which decorate, are not named."""
+
+
 def _is_deep(ground: Ground, x: float, y: float) -> bool:
     """Whether a point is inside a tile and not on its surface, a usual place of turrets and launchers."""
-    return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
+    return all(solid_at(ground.tiles, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 
 def _untouched(ground: Ground, x: float, y: float, radius: float, switch: str = "") -> Iterator[Finding]:
@@ -409,7 +426,7 @@ def _gold(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     places = [(x + a * rules.GOLD_RADIUS, y + b * rules.GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
     if untouched := [*_untouched(ground, x, y, rules.GOLD_RADIUS)]:
         yield from untouched
-    elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
+    elif sum(solid_at(ground.tiles, *place) for place in places) >= _HIDDEN * len(places):
         yield level_finding("hidden-gold")
 
 

@@ -12,7 +12,7 @@ from ninja_game.formats.ascii.writer import RULER
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import COLUMNS, ROWS, Level
-from ninja_game.sim.loader import grid_tiles
+from ninja_game.sim.loader import tile_map
 from ninja_game.sim.rules import CELL, HALF
 from ninja_game.sim.schema.world_fields import TileMap
 
@@ -36,8 +36,7 @@ _QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
 
 def level_picture(level: Level) -> Text:
     """Draw the level, two characters per cell, with a border line and numbers of columns and rows."""
-    tiles = TileMap()
-    tiles.tiles = grid_tiles(level)
+    tiles = tile_map(level)
     columns, rows = 2 * COLUMNS, ROWS
     signs = [[(_block(tiles, column, row), "grey62") for column in range(columns)] for row in range(rows)]
     for spec in level.objects:

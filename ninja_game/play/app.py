@@ -34,7 +34,7 @@ from ninja_game.ui.theme import PALETTES, Palette, Theme, palette_named, wrapped
 
 
 class Screen(BaseScreen):
-    """A screen whose app is known by its type."""
+    """A screen of the program with a window; its ``app`` is an ``App``, where a BaseScreen knows only a ``Host``."""
 
     app: App
 
@@ -62,8 +62,7 @@ TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
 class App:
     """The window with its stack of screens.
 
-    ``size``: px of the window; ``window``: a window that is open already. Raises NinjaGameError where there is no
-    display.
+    ``size``: px of the window; ``window``: a window that is open already. Raises NinjaGameError without a display.
     """
 
     def __init__(
@@ -84,7 +83,7 @@ class App:
         #: Opens a run in the TAS editor, at a tick, with others to compare; None where there is none, as in a page
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
-        self.solver = Solver()  #: of all editors; the desk of packs shows what was stopped
+        self.solver = Solver()  #: shared by all editors; the screen of packs shows stopped searches
         self.aside: list[Aside] = []
         self.running = True
         self.frame_ms = 0.0
@@ -263,8 +262,7 @@ class App:
     def _handle(self, raw: pygame.Event) -> None:
         """Handle events of the window; a screen that waits for a key press gets it before the app's own keys.
 
-        Ignored: the fourth and fifth button, which SDL sends for each notch of the wheel, and the buttons at a mouse's
-        side.
+        Ignored: the buttons 4 and 5, which SDL sends for each notch of the wheel, and the buttons at a mouse's side.
         """
         if raw.type in {pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP} and raw.button > pygame.BUTTON_RIGHT:
             return
@@ -327,14 +325,14 @@ class App:
         self,
         title: str,
         suffix: str,
-        content: str | Callable[[Path], object],
+        content: str | bytes | Callable[[Path], object],
         *,
         first: int = 0,
         over: Path | None = None,
     ) -> Path | None:
         """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, or a function that writes to the path. ``first``: as of ``export_path``.
+        ``content``: text, bytes, or a function that writes to the path. ``first``: as of ``export_path``.
         ``over``: an earlier export, which is replaced.
         """
         try:

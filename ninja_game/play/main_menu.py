@@ -27,7 +27,7 @@ from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.playback import Playback, RunClock
 from ninja_game.play.window import LOGO
-from ninja_game.player.playthrough import EpisodePlaythrough, next_run
+from ninja_game.player.episode_playthrough import EpisodePlaythrough, next_run
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Point
 from ninja_game.simulation import Simulation
@@ -107,9 +107,7 @@ class MainMenu(MenuScreen):
         def edit(entry: Entry, finding: Finding | None = None) -> None:
             screen = EditorScreen(app, offers_recovered=False)
             app.push(screen)
-            screen.commands.edit_entry(entry)
-            if finding:
-                screen.commands.show_finding(finding)
+            screen.commands.edit_entry(entry, finding)
 
         def packs() -> None:
             from ninja_game.play.menus.packs import PackScreen  # it needs NumPy, which takes a moment
@@ -155,7 +153,8 @@ class MainMenu(MenuScreen):
         rect = theme.window(surface, x, y, w, h)
         self._draw_title(surface)
         self.draw_widgets(surface)
-        palette, hint = self.app.theme.palette, self.focus.hint if self.focus else ""
+        palette = self.app.theme.palette
+        hint = self.focus.hint if self.focus else ""
         foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
         theme.text(
             surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40

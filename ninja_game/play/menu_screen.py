@@ -169,8 +169,7 @@ class MenuScreen(Screen):
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
 
-        Up and down stay among the widgets above and below each other; from the last they lead to the first, or, without
-        ``wraps``, nowhere.
+        Up and down stay among the widgets above each other; from the last they lead to the first if ``wraps``.
         """
         focus = self.focus
         if focus is None:
@@ -303,7 +302,7 @@ class Panel(MenuScreen):
 
     see_through = True
     offers_back = False
-    row_height = 40
+    row_height = 40.0
     veil = 130
     head, side, size = 48, 30, 12.0
 
@@ -382,6 +381,7 @@ class Menu(Panel):
         unasked: bool = False,
     ) -> None:
         super().__init__(app, title)
+        self.row_height = min(self.row_height, (HEIGHT - 80) / max(1, len(rows)))  # fourteen rows have room
         self._deaf_ms = 500 if unasked else 0
         self._then, self._begins = then, at
         self._rows: list[MenuRow] = [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 import pygame
@@ -12,7 +13,7 @@ from ninja_game.ui.theme import Theme
 
 
 class Host(Protocol):
-    """What every screen needs of its App, which imports this module."""
+    """The part of ``App`` that every screen needs; a protocol, since ``app`` imports this module."""
 
     theme: Theme
     mood: Mood
@@ -93,7 +94,7 @@ class Aside:
 
 
 class ScreenStack:
-    """The open screens. The top one gets the events, and is told by ``enter`` and ``leave`` of the change."""
+    """The open screens. The top one gets the events; ``enter`` and ``leave`` are called as it changes."""
 
     def __init__(self) -> None:
         self._screens: list[BaseScreen] = []
@@ -145,7 +146,7 @@ class ScreenStack:
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """Draw the visible screens; the px rectangles that changed, or None if all of the window may have changed."""
-        visible = self._from_last("see_through")
+        visible = self._from_last(lambda screen: not screen.see_through)
         if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
             visible[0].redraw = True
         changed: list[pygame.Rect] | None = []
@@ -161,9 +162,9 @@ class ScreenStack:
 
     def running(self) -> list[BaseScreen]:
         """The screens that are updated, lowest first."""
-        return self._from_last("below_runs")
+        return self._from_last(lambda screen: not screen.below_runs)
 
-    def _from_last(self, attribute: str) -> list[BaseScreen]:
-        """The screens from the last one that has not this attribute, or from the first."""
-        ends = [index for index, screen in enumerate(self._screens) if not getattr(screen, attribute)]
+    def _from_last(self, covers: Callable[[BaseScreen], bool]) -> list[BaseScreen]:
+        """The screens from the last one that covers those below it, or from the first."""
+        ends = [index for index, screen in enumerate(self._screens) if covers(screen)]
         return self._screens[max(ends, default=0) :]

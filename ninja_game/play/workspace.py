@@ -132,7 +132,7 @@ class Pane:
     """A part of a workspace, drawn again only when its ``render_key`` changes."""
 
     area: Area = (0, 0, 0, 0)  #: logical px
-    widgets: Sequence[Widget] = ()  #: in it; what they show is part of ``render_key``
+    widgets: Sequence[Widget] = ()  #: widgets in the pane; their state is part of ``render_key``
     wants: Widget | None = None  #: gets the focus as soon as the part is shown
     _drawn: tuple[object, ...] | None = None
 
@@ -185,8 +185,7 @@ class Pane:
 class WorkspaceScreen(MenuScreen):
     """Parts of a window around a document. A key is a command, unless a text field has the focus.
 
-    ``table``: the commands, which ``run`` does. ``parts``: those that are shown; each is drawn when its ``render_key``
-    or its widgets change.
+    ``table``: commands, which ``run`` does. ``parts``: shown ones, drawn when their ``render_key`` or widgets change.
     """
 
     table: ClassVar[CommandTable]

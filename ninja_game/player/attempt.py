@@ -20,11 +20,11 @@ from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLE
 from ninja_game.simulation import SaveState, Simulation
 
 AttemptState = tuple[SaveState, bytes, int, int, bool]
-"""A save-state with the inputs, the lifetime, the tick of the end, whether the player gave up."""
+"""A save-state with the inputs, the lifetime, the tick of the end, whether the player ended the try."""
 
 
 class Attempt:
-    """One try at a level, from its start to the exit, to death, or to giving up."""
+    """One try at a level, from its start until the exit, death, or the player's decision to end it."""
 
     def __init__(
         self, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice_mode: bool = False
@@ -122,7 +122,7 @@ class Attempt:
         self.assists.add("save-states")
 
     def after_rewind(self) -> None:
-        """Update after the simulation was set back to an earlier tick of this recording."""
+        """Drop the inputs after the present tick, to which the simulation was set back; update clock and result."""
         tick = self.simulation.tick
         ended = self.outcome != "running"
         del self.inputs[tick:]
@@ -142,7 +142,7 @@ class Attempt:
         return replace(replay, made=self.made)
 
 
-_MAX_TRIES = 20  # more than any place has killers: a ninja that is still crushed after so many tries is dead
+_MAX_TRIES = 20  # more than any place has killers: a ninja that is still crushed after them is dead
 
 
 def tick_without_death(simulation: Simulation, keys: int) -> bool:

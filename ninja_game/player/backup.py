@@ -171,7 +171,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
 
 
 def _without_path(autosave: bytes) -> bytes:
-    """A level under edit without its file: the path of another machine means nothing here."""
+    """The text of a level under edit without the path of its file, which means nothing on another machine."""
     level = ""
     with suppress(*DAMAGED):
         level = str(json.loads(autosave)["level"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -15,7 +16,17 @@ from ninja_game.levels.episodes import Entry, Episode
 from ninja_game.player import progress
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import LOCKED, UNLOCKED, LevelMarks, Mark, PackProgress, Place, has_all_gold, medal_of
+from ninja_game.player.progress import (
+    LOCKED,
+    UNLOCKED,
+    LevelMarks,
+    Mark,
+    PackProgress,
+    Place,
+    has_all_gold,
+    medal_of,
+    save_unfinished,
+)
 from ninja_game.player.records import Records, Statistics
 from ninja_game.player.settings import Settings, read_settings, write_changes
 from ninja_game.player.store import Store, StoreWork
@@ -62,7 +73,8 @@ class PlayerData:
 
     def newcomer(self) -> PlayerData:
         """Data of a new player without a name, with the same levels; results are not saved."""
-        store, settings = Store(None, "this is a preview"), self.settings.changed(name="")
+        store = Store(None, "this is a preview")
+        settings = self.settings.changed(name="")
         other = PlayerData(self.folder, store=store, catalogue=self.catalogue, settings=settings)
         other._is_maker = False
         return other
@@ -127,7 +139,7 @@ class PlayerData:
         return f"Finish {counted(left, 'more level')} of episode {before.code} first"
 
     def reached(self, entry: Entry, mark: Mark | None) -> str:
-        """A sentence: the player's results in a level with this mark; the same on every screen."""
+        """The player's results in a level with this mark, as a sentence; the same on every screen."""
         if mark is None and self.marks.is_passed(entry.digest):
             return progress.HELPED
         episode = None if mark else self.catalogue.episode_of(entry)
@@ -200,7 +212,7 @@ def forget_replay(data: PlayerData, number: int) -> str:
 
 
 def save_work(data: PlayerData, work: StoreWork) -> list[str]:
-    """Save ``work``; its notices, and at the end why it is not on the disk, if so."""
+    """Save ``work``; gives its notices, then the reason if it could not be written to the disk."""
     notices, problem = data.store.save(work)
     return [*notices, *([f"Not saved yet: {problem}"] if problem else [])]
 
@@ -227,7 +239,7 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
 def count_of(
     data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
 ) -> StoreWork:
-    """The counting of an attempt in its present state: passed, killed, or given up; an assisted pass gets its mark."""
+    """The change of the counts by an attempt as it is now: passed, killed or ended; an assisted pass gets its mark."""
     level, gold = entry.digest, attempt.gold
     helped = passed and attempt.assisted and not attempt.practice_mode
     ticks = attempt.simulation.tick if attempt.outcome == "running" else max(attempt.ended_tick, 0)
@@ -239,3 +251,28 @@ def count_of(
         return []
 
     return work
+
+
+def note_progress(
+    data: PlayerData,
+    episode: Episode,
+    position: int,
+    replays: Sequence[Replay] = (),
+    *,
+    legitimate: bool = True,
+    kept: bool = True,
+) -> None:
+    """A level of an episode was passed or skipped: unlock the next one, and save it as the place to continue.
+
+    ``replays``: those of the episode up to it, if no level was skipped. Raises sqlite3.Error.
+    """
+    following = data.catalogue.following(episode)
+    goal = following.number if following else None
+    levels = len(episode.levels)
+    data.progress_in(episode.pack).level_passed(
+        (episode.number, position), levels=levels, following=goal, legitimate=legitimate
+    )
+    if legitimate and kept and position < levels - 1:
+        save_unfinished(data.store, episode.key, replays)
+    elif legitimate and kept:
+        save_unfinished(data.store, following.key if following else "")

@@ -1,31 +1,27 @@
-"""Levels as they are played: title and ghosts, saving, and the next level of a file or an episode.
+"""Levels as they are played, by themselves or of a file: title and ghosts, saving, and the next level.
 
 game.md §1.4, §2, §8.
 """
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from enum import Enum
-from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game.errors import DAMAGED, LevelError
+from ninja_game.errors import LevelError
 from ninja_game.files.reading import file_stamp
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pars import Pars
-from ninja_game.formats.replay.text import Replay, lifetimes, parse_replay, write_replay
-from ninja_game.levels.episodes import YOURS, Entry, Episode
+from ninja_game.levels.episodes import YOURS, Entry
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.player_data import EPISODE_BEST, PlayerData, count_of, replay_of, save_best, save_work
-from ninja_game.player.progress import LOCKED, UNLOCKED, new_unlocks, next_par
-from ninja_game.player.store import Store, StoreWork
+from ninja_game.player.player_data import PlayerData, count_of, note_progress, replay_of, save_best, save_work
+from ninja_game.player.progress import UNLOCKED, load_unfinished, next_par
 from ninja_game.sim.level import Body, Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Simulation
@@ -39,20 +35,22 @@ class PacedRun(NamedTuple):
 
 
 class Navigation(Enum):
-    """The next screen after a level."""
+    """What follows a level."""
 
     SAME_LEVEL = "the level again"
-    NEXT_LEVEL = "the level at which the playthrough now stands"
-    EPISODE_END = "what the episode has brought"
-    BACK = "the screen from which the level was opened"
+    NEXT_LEVEL = "the present level of the playthrough, which has moved on"
+    EPISODE_END = "the results of the episode"
+    BACK = "no other level: back to where this one was chosen"
 
 
 class Playthrough:
-    """A level by itself, of a file, or of an episode. The subclasses below choose the next level.
+    """The player's way through levels: a base class; each subclass decides which level follows a pass.
 
-    ``entry``: the present level. ``lifetime``: ticks at its start. ``notices``: of what was saved. ``next_label``: the
-    label of the way on from a passed level. ``lead``: inputs that have been played when it waits for the player.
-    ``deaths``: for its texts, how many there were before.
+    - ``entry``: the level that is played now; ``lifetime``: its time limit, in ticks.
+    - ``notices``: sentences about what the last save has won, such as a new best.
+    - ``next_label``: the words on the button that goes on after a pass.
+    - ``lead``: inputs played before the level waits for the player; ``deaths``: deaths before the first try. Both are
+      set only by tests of a level under edit.
     """
 
     next_label = "next level"
@@ -102,7 +100,7 @@ class Playthrough:
 
     @property
     def show_tutorial(self) -> bool:
-        """Whether the keys are explained at its start: to a player without any pass."""
+        """Whether the keys are explained at the level's start: only to a player who has passed no level yet."""
         return not self.data.statistics.played().passes
 
     def ghosts(self) -> list[PacedRun]:
@@ -122,7 +120,7 @@ class Playthrough:
         return self._ghosts[1]
 
     def _raced_medal(self) -> str:
-        """The medal whose pace a ghost has; "" for the player's best."""
+        """The medal at whose pace the ghost runs; "" if the ghost is the player's best run."""
         medal_ghost, pars = self.data.settings.ghost, self.pars
         if medal_ghost == "best" or pars is None:
             return ""
@@ -153,25 +151,25 @@ class Playthrough:
         save_work(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
-        """Called when an attempt is left or restarted, ended or not: counts one that has not."""
+        """Called when an attempt is left or restarted: counts it as ended by the player, unless it was over already."""
         if attempt.outcome == "running" and attempt.simulation.tick:
             # A restart must not wait for the disk.
             self.data.store.defer(count_of(self.data, self.entry, attempt))
 
     def restart(self) -> bool:
-        """Called when the level restarts; whether it is another one, since its file has changed.
+        """Called when the level restarts; whether the level has changed, as its file did.
 
         Raises NinjaGameError or OSError for a changed file that cannot be played; the level stays as it was.
         """
         return False
 
     def advance(self) -> Navigation:
-        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL: this playthrough is at another one now."""
+        """Leave this level, passed or (in practice) skipped; NEXT_LEVEL if ``entry`` is another level now."""
         return Navigation.SAME_LEVEL
 
     @property
-    def next_screen(self) -> Navigation:
-        """The target of leaving: BACK or EPISODE_END."""
+    def on_leaving(self) -> Navigation:
+        """What follows when the player leaves: BACK or EPISODE_END."""
         return Navigation.BACK
 
 
@@ -207,7 +205,8 @@ class LevelPlaythrough(Playthrough):
         Simulation(named.level, body=self.body)
         changed = named.level != before
         pars = None if changed else self.entry.pars
-        self._levels, self.entry = levels, replace(self.entry, named=named, pars=pars)
+        self._levels = levels
+        self.entry = replace(self.entry, named=named, pars=pars)
         return changed
 
     @property
@@ -276,199 +275,3 @@ class FilePlaythrough(LevelPlaythrough):
         place = [level.record for level in self._levels].index(self.entry.named.record)
         self._following = [Entry(named, YOURS) for named in (*self._levels[place + 1 :], *self._levels[:place])]
         return super().advance()
-
-
-class EpisodePlaythrough(Playthrough):
-    """An episode from its first level on. ``position``: of the present one, from 0.
-
-    ``legitimate``: neither practice nor a "cheated" episode; else nothing is a best and only "reached" moves on.
-    ``replays``: of the levels passed so far, if it is legitimate. ``whole``: no level was skipped or passed with
-    assistance, so that the score of the episode counts.
-    """
-
-    def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
-        super().__init__(data, episode.levels[0], practice_mode=practice_mode)
-        self.episode = episode
-        self.position = 0
-        self.legitimate = not practice_mode and data.episode_state(episode) == UNLOCKED
-        self.score = 0
-        self.whole = True
-        self.replays: list[Replay] = []
-        self._passed: Attempt | None = None
-
-    def resume(self, replays: Sequence[Replay]) -> None:
-        """Continue after the first levels of the episode, which these runs have passed."""
-        self.replays = list(replays)
-        self.position = len(replays)
-        self.entry = self.episode.levels[self.position]
-        self.lifetime = lifetimes(replays)[-1]
-        self.score = self.lifetime
-
-    def skip_to_furthest(self) -> None:
-        """Go to the farthest level that was reached by skipping, if it is in this episode."""
-        beaten = self.data.beaten_in(self.episode)
-        if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
-            self.whole, self.position = False, beaten[1]
-            self.entry = self.episode.levels[self.position]
-
-    @property
-    def title(self) -> str:
-        return self.episode.title(self.position)
-
-    @property
-    def carries_clock(self) -> bool:
-        return not self.is_last and not self.practice_mode
-
-    @property
-    def is_last(self) -> bool:
-        return self.position == len(self.episode.levels) - 1
-
-    def passed(self, attempt: Attempt) -> list[str]:
-        """Save the results of a passed attempt, for its level and for the episode; notices about them.
-
-        An assisted one is no record, but it unlocks the next level.
-        """
-        counts = self.legitimate and not attempt.assisted
-        self.whole = self.whole and counts
-        self.score = attempt.lifetime
-        self._passed = attempt
-        if counts:
-            self.replays = [*self.replays[: self.position], replay_of(self.data, self.entry, attempt)]
-        count = count_of(self.data, self.entry, attempt, passed=True)
-        replays = tuple(self.replays) if counts else ()
-        # A copy of the present state: the work may be done later, when the run has gone on.
-        work = partial(
-            self._save, count, self.position, self.score, replays, legitimate=self.legitimate, whole=self.whole
-        )
-        self.notices = save_work(self.data, work)
-        return self.notices
-
-    def _save(
-        self, count: StoreWork, position: int, score: int, replays: Sequence[Replay], *, legitimate: bool, whole: bool
-    ) -> list[str]:
-        count()
-        levels = len(self.episode.levels)
-        note_progress(self.data, self.episode, position, replays if whole else (), legitimate=legitimate)
-        if not replays:
-            return []
-        notices = save_best(self.data, self.episode.levels[position], replays[-1])
-        if position == levels - 1:
-            before = self.data.records.episode_best(self.episode.key)
-            if whole and self.data.records.episode_passed(self.episode.key, score, replays) and before:
-                notices.append(EPISODE_BEST)
-            if not self.episode.pack:
-                notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
-        return notices
-
-    def restart(self) -> bool:
-        self._passed = None
-        return False
-
-    def advance(self) -> Navigation:
-        """To the next level with the lifetime at the exit; or, skipping this one, with that at its start."""
-        if self._passed is None:
-            self._leave_out()
-        else:
-            self.lifetime = self._passed.lifetime
-        if self.is_last:
-            return self.next_screen
-        self.position += 1
-        self.entry = self.episode.levels[self.position]
-        self._passed = None
-        return Navigation.NEXT_LEVEL
-
-    @property
-    def next_screen(self) -> Navigation:
-        """After the last level the episode's results, else back."""
-        return Navigation.EPISODE_END if self._passed is not None and self.is_last else Navigation.BACK
-
-    def _leave_out(self) -> None:
-        """Unlock the level after the present one; nothing of the episode counts as a best any more."""
-        self.whole = False
-        position, legitimate = self.position, self.legitimate
-
-        def work() -> list[str]:
-            note_progress(self.data, self.episode, position, legitimate=legitimate)
-            return []
-
-        self.notices = save_work(self.data, work)
-
-
-def note_progress(
-    data: PlayerData,
-    episode: Episode,
-    position: int,
-    replays: Sequence[Replay] = (),
-    *,
-    legitimate: bool = True,
-    kept: bool = True,
-) -> None:
-    """A level of an episode was passed or skipped: unlock the next one, and save it as the place to continue.
-
-    ``replays``: those of the episode up to it, if no level was skipped. Raises sqlite3.Error.
-    """
-    following = data.catalogue.following(episode)
-    levels = len(episode.levels)
-    progress, goal = data.progress_in(episode.pack), following.number if following else None
-    progress.level_passed((episode.number, position), levels=levels, following=goal, legitimate=legitimate)
-    if legitimate and kept and position < levels - 1:
-        save_unfinished(data.store, episode.key, replays)
-    elif legitimate and kept:
-        save_unfinished(data.store, following.key if following else "")
-
-
-def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
-    """The playthrough to continue: after the level played last, or else the first episode that has not been passed.
-
-    None without episodes.
-    """
-    if not practice_mode and (run := unfinished_run(data)):
-        return run
-    episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
-    ahead = [episode for episode in episodes if not data.progress.is_beaten(episode.number)]
-    opened = [episode for episode in ahead if data.episode_state(episode) != LOCKED]
-    chosen = next(iter(opened or ahead or episodes), None)
-    if chosen is None:
-        return None
-    run = EpisodePlaythrough(data, chosen, practice_mode=practice_mode)
-    run.skip_to_furthest()
-    return run
-
-
-def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodePlaythrough | None:
-    """The unfinished run of an episode, or of the one played last; None if it has not been begun or is over."""
-    key, replays = load_unfinished(data.store)
-    if chosen is None:
-        episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
-        chosen = next((episode for episode in episodes if key and episode.key == key), None)
-    elif chosen.key != key:
-        replays = []
-    if chosen is None or len(replays) >= len(chosen.levels):
-        return None
-    run = EpisodePlaythrough(data, chosen)
-    if replays:
-        run.resume(replays)
-    else:
-        run.skip_to_furthest()
-    return run if run.position or not data.progress_in(chosen.pack).is_beaten(chosen.number) else None
-
-
-_PLACE = "episode left half-way"
-
-
-def save_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
-    """Save the episode to continue, "" for none, and its runs. Raises sqlite3.Error."""
-    with store.change() as db:
-        value = json.dumps([key, *map(write_replay, replays)])
-        db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
-
-
-def load_unfinished(store: Store) -> tuple[str, list[Replay]]:
-    """The key of the episode to continue, and its runs; ("", []) without one, or for a damaged one."""
-    for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
-        try:
-            key, *texts = json.loads(value)
-            return str(key), [parse_replay(text) for text in texts]
-        except DAMAGED:
-            break
-    return "", []

@@ -1,13 +1,19 @@
-"""Progress: columns of episodes and what they unlock; marks, medals, all gold (game.md §2.1, §8)."""
+"""Progress: columns of episodes and what they unlock; the episode to continue; marks, medals, all gold.
+
+game.md §2.1, §8.
+"""
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple
 
+from ninja_game.errors import DAMAGED
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE, MAX_COLUMNS
 from ninja_game.formats.pack.pars import MEDALS, Pars
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.store import Store
@@ -17,7 +23,7 @@ _COLOURS = 9  # colours of the ninja beyond the first one; each complete column 
 OVERCLOCK_COLUMNS = 6
 FASTEST_TICK_GAIN = 10  # ms that overclock can take off a tick's 25
 
-_ANNOUNCED = "columns announced"
+_ANNOUNCED, _PLACE = "columns announced", "episode left half-way"  # names of facts in the store
 
 UNLOCKED, CHEATED, LOCKED = "unlocked", "cheated", "locked"
 
@@ -67,7 +73,7 @@ class PackProgress:
         return CHEATED if episode <= column.reached[0] else LOCKED
 
     def is_beaten(self, episode: int) -> bool:
-        """Whether an episode was passed legitimately; the tenth of a column counts once its last level is reached."""
+        """Whether an episode was passed legitimately; of the tenth in a column it is enough to reach its last level."""
         beaten = self.columns[episode // EPISODES_PER_COLUMN].beaten
         return beaten[0] > episode or (_ends_column(episode) and beaten >= (episode, LEVELS_PER_EPISODE - 1))
 
@@ -98,7 +104,7 @@ class PackProgress:
 
 
 def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
-    """The number of complete columns: all of the ``episodes`` that exist in them are beaten, and there are some."""
+    """The number of complete columns: those with episodes, all of which are beaten. ``episodes``: those that exist."""
     count = 0
     for column in range(MAX_COLUMNS):
         present = [episode for episode in episodes if episode // EPISODES_PER_COLUMN == column]
@@ -107,7 +113,7 @@ def complete_columns(progress: PackProgress, episodes: Collection[int]) -> int:
 
 
 def unlocked_colours(columns: int) -> int:
-    """The number of colours beyond the first one that so many complete columns unlock."""
+    """The number of colours beyond the first one that this many complete columns unlock."""
     return min(columns, _COLOURS)
 
 
@@ -137,6 +143,24 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
     return messages
 
 
+def save_unfinished(store: Store, key: str, replays: Sequence[Replay] = ()) -> None:
+    """Save the episode to continue, "" for none, and its runs. Raises sqlite3.Error."""
+    with store.change() as db:
+        value = json.dumps([key, *map(write_replay, replays)])
+        db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_PLACE, value))
+
+
+def load_unfinished(store: Store) -> tuple[str, list[Replay]]:
+    """The key of the episode to continue, and its runs; ("", []) without one, or for a damaged one."""
+    for (value,) in store.rows("SELECT value FROM fact WHERE name = ?", (_PLACE,), [str]):
+        try:
+            key, *texts = json.loads(value)
+            return str(key), [parse_replay(text) for text in texts]
+        except DAMAGED:
+            break
+    return "", []
+
+
 def is_place(place: Place, column: int) -> bool:
     return place[0] // EPISODES_PER_COLUMN == column in range(MAX_COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
 
@@ -146,7 +170,7 @@ def _ends_column(episode: int) -> bool:
 
 
 def _advanced(present: Place, episode: int, goal: Place) -> Place:
-    """The farther of two places. Within an episode only from that episode: later levels of earlier ones change nothing.
+    """The farther of two places in a column; a later level counts only in the same episode.
 
     >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0))
     ((0, 3), (3, 0), (1, 0))

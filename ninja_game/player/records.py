@@ -32,7 +32,7 @@ class SavedReplay(NamedTuple):
     player: str
     body: str
     outcome: str
-    final_tick: int  #: as of a Replay
+    final_tick: int  #: the last tick that is run, from 0
     gold: int
     score: int
     made_at: str
@@ -222,7 +222,7 @@ class Statistics:
         self.store = store
 
     def attempt_ended(self, level: str, *, killer: str | None, passed: bool, ticks: int, gold: int) -> None:
-        """Count an attempt at a level (its digest) that ended: passed, killed by ``killer``, or given up.
+        """Count an attempt at a level (its digest) that ended: passed, killed by ``killer``, or ended by the player.
 
         Raises sqlite3.Error.
         """

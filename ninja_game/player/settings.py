@@ -25,7 +25,7 @@ SETTINGS_VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
-MAX_SETTINGS_BYTES = 2**16  # a larger file is no file of settings; a number of so many digits is read within 0.1 s
+MAX_SETTINGS_BYTES = 2**16  # a larger file is no file of settings; a number of this many digits is read within 0.1 s
 
 LOCK_SECONDS = 1.0
 
@@ -181,7 +181,7 @@ class Settings:
 
 
 SPECS: dict[str, SettingSpec] = {setting.name: setting.metadata["spec"] for setting in fields(Settings)}
-"""By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
+"""The specs by setting. Bindings are in tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
 
 def read_settings(path: Path) -> tuple[Settings, list[str]]:

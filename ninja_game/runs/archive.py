@@ -205,7 +205,7 @@ class Totals:
     gold: int = 0
     failed: int = 0  #: runs that do not do what their file claims
     unreadable: int = 0
-    outcomes: Counter[str] = field(default_factory=Counter)  #: how many ended so, by outcome
+    outcomes: Counter[str] = field(default_factory=Counter)  #: number of runs, by outcome
 
     def add(self, result: Result) -> None:
         if isinstance(result, Unreadable):

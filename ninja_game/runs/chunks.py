@@ -1,13 +1,11 @@
 """Recordings cut into chunks that can be verified anywhere, and the log of those that are done.
 
 A chunk is some files, or some records of a large one. It carries its text, so that it can be sent to a machine that
-does not see the files. Files that a text takes in are read where the chunk is verified, unless ``self_contained`` has
-put them inside first.
+does not see the files. Included files are read where the chunk is verified, unless ``self_contained`` put them inside.
 
-The checkpoint log lets a long verification be stopped and resumed. It is a text file, one JSON object a line: first
-what it is a log of, then each chunk with its results, as soon as it is done. Chunks are known by a digest of everything
-that their results depend on. A last line that was not finished, because the program or the machine died, is cut off and
-its chunk done again.
+With the checkpoint log a long verification can be stopped and resumed. It is a text file, one JSON object per line:
+first the log's format and version, then each chunk with its results, as soon as it is done. Chunks are known by a
+digest of everything that their results depend on. An unfinished last line is cut off, and its chunk done again.
 """
 
 from __future__ import annotations
@@ -47,10 +45,9 @@ Result = Verdict | Unreadable
 class Chunk:
     """A file, records ``first`` … of one, or run ``first`` of an episode.
 
-    ``text``: of the whole file, if ``records`` is empty; ``beside``: all files that it takes in, None while they are
-    read where they are needed; ``problem``: why the file cannot be read, '' if it can; ``named``: whether the caller
-    named the file, or it was found in a folder; ``key``: by which the checkpoint log knows it, ``done``: whether that
-    has its results.
+    ``text``: the whole file, if ``records`` is empty; ``beside``: all files that it includes, None while they are read
+    where they are needed; ``problem``: why the file cannot be read, '' if it can; ``named``: whether the caller named
+    the file (else it was found in a folder); ``key``: its key in the checkpoint log; ``done``: whether it is in there.
     """
 
     file: str
@@ -220,8 +217,7 @@ MAX_LINE_BYTES = 2**26  # bytes; the results of a chunk are a thousandth of it
 class CheckpointLog:
     """A checkpoint log that is open for reading and writing; a context manager.
 
-    ``path`` is made if it is missing. Raises FormatError for a file that is something else, and leaves it as it is;
-    OSError.
+    ``path`` is made if it is missing. Raises FormatError for any other file, which stays as it is; OSError.
     """
 
     def __init__(self, path: Path) -> None:

@@ -58,7 +58,7 @@ class Split(NamedTuple):
 
     @property
     def name(self) -> str:
-        """In plain words.
+        """The event in plain words.
 
         >>> Split(90, "door-opened", 3, 1, 60.0, 540.0).name, Split(120, "won", None, 0, 60.0, 540.0).name
         ('door 3, time 2', 'exit')
@@ -68,7 +68,7 @@ class Split(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """The sort of event, without the object."""
+        """The kind of event, without its object."""
         return _NAMES.get(self.event, self.event)
 
 
@@ -145,7 +145,8 @@ def _spans(world: Worlds, keys: bytes, events: Sequence[str]) -> list[bytes]:
     """
     ends = list(range(1, len(keys)))
     if world.name == "compiled":
-        state, numbers = world.save(), [number for number, name in enumerate(EVENT_NAMES, 1) if name in events]
+        state = world.save()
+        numbers = [number for number, name in enumerate(EVENT_NAMES, 1) if name in events]
         happened = np.frombuffer(world.trace(keys, (), events=True).events, np.uint8).reshape(-1, MAX_EVENTS)
         world.restore(state)
         ends = (np.flatnonzero(np.isin(happened[:-1], numbers).any(axis=1)) + 1).tolist()
@@ -171,7 +172,7 @@ def best_run(runs: Sequence[RunSplits]) -> RunSplits:
 
 
 def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
-    """A row for each split of ``best``, in its order; then for those that only other runs reach, by their tick."""
+    """A row for each split of ``best``, in its order; then a row for each split that only other runs reach, by tick."""
     others = {split.key: split for run in runs for split in sorted(run.splits, reverse=True)}
     known = best.by_key
     order = [*best.splits, *sorted(split for key, split in others.items() if key not in known)]
@@ -281,7 +282,7 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
 
 
 def each_second(places: tuple[Lead, ...]) -> list[Lead]:
-    """Leads in the ticks of every full second of the first run, of those tick by tick: 40 at 1.000 s, 80 ..."""
+    """The leads at full seconds of the first run, chosen from leads tick by tick: those of tick 40 (1.000 s), 80 ..."""
     return [lead for lead in places if lead.tick and lead.tick % TICKS_PER_SECOND == 0]
 
 

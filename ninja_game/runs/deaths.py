@@ -1,4 +1,4 @@
-"""The ninja's killers: their names, and in words."""
+"""The ninja's killers: their names, and sentences about them."""
 
 from __future__ import annotations
 

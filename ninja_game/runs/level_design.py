@@ -128,7 +128,7 @@ def clearance(run: RunTrace) -> NDArray[np.float64]:
 
 
 def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> NDArray[np.bool_]:
-    """Which points lie within 40 px of a possible place of a hazard, or in the sight of a gun."""
+    """Whether points lie within 40 px of a possible place of a hazard, or in the sight of a gun."""
     by_touch = _RADII.keys() - GUNS.keys()
     moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
@@ -148,7 +148,7 @@ def lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
     for dx, dy in [(1, 0), (-1, 0)] if is_guard else [_DIRECTIONS[int(record.values[2]) % 4]]:
         for step in range(2 * COLUMNS):
             place = x + dx * step * CELL / 2, y + dy * step * CELL / 2
-            if solid_at(ground.level, *place):
+            if solid_at(ground.tiles, *place):
                 break
             yield place
 
@@ -157,7 +157,7 @@ def in_sight(ground: Ground, gun: Sequence[float], point: Sequence[float]) -> bo
     """Whether no rock lies between two places."""
     steps = max(1, int(hypot(point[0] - gun[0], point[1] - gun[1]) / 6))
     return not any(
-        solid_at(ground.level, gun[0] + (point[0] - gun[0]) * k / steps, gun[1] + (point[1] - gun[1]) * k / steps)
+        solid_at(ground.tiles, gun[0] + (point[0] - gun[0]) * k / steps, gun[1] + (point[1] - gun[1]) * k / steps)
         for k in range(1, steps)
     )
 
@@ -172,7 +172,7 @@ def evenness(points: Points, room: float) -> float | None:
 
 
 def most_bays(level: Level) -> int:
-    """How often the commonest block of 6 x 5 cells occurs without overlaps; nearly full or empty ones do not count."""
+    """The count of the commonest block of 6 x 5 cells, without overlaps; nearly full or empty ones do not count."""
     wide, high = BAY
     where: dict[tuple[int, ...], list[tuple[int, int]]] = {}
     for i in range(COLUMNS - wide + 1):

@@ -66,15 +66,15 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 class MessageQueue:
     """The messages of a level in play: the shown one, and those that wait for it.
 
-    - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
+    - ``tiles``: the level's tiles, which hide a place from the ninja; None: only full tiles and doors hide it.
     - ``helps``: the game gives advice too: to try again, to climb; ``teaches``: not beside the level's messages.
-    - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
+    - ``text``: the shown text, "" for none; ``place``: its place, px. It ends when the ninja is far from there.
 
-    A message of the start comes at each start until the exit is open, any other once. What just happened replaces
-    what is shown; a place or a time waits until that was read, for its ``read_ticks``, and comes again if it was
-    replaced before. What was read in an earlier try holds nothing back. An important message comes at once; until it
-    was read only another such that just happened replaces it. The text of a place without a time of its own stays while
-    the ninja is in its frame, unless another waits.
+    A message of the start comes at each start until the exit is open, any other message once. A message about an event
+    replaces the shown one at once. A message of a place or a time waits until the shown one was read, for its
+    ``read_ticks``; if it was replaced before it was read, it comes again. Messages read in an earlier try hold nothing
+    back. An important message comes at once; until it was read, only another important event replaces it. The text of a
+    place without a time of its own stays while the ninja is in its frame, unless another one waits.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class MessageQueue:
         helps: bool = False,
         teaches: bool = False,
     ) -> None:
-        self._messages, self._map = messages, tiles or TileMap()
+        self._messages, self._tiles = messages, tiles or TileMap()
         self.helps = helps
         self._again = self._advises = helps and not (teaches and messages)
         self._shown: set[LevelMessage] = set()
@@ -97,7 +97,7 @@ class MessageQueue:
         self.at_start()
 
     def at_start(self) -> None:
-        """Called when the level waits at its start. What was still waiting has not been shown."""
+        """Called when the level waits at its start; messages that still waited count as not shown."""
         self._shown.difference_update(message for _, _, message in self._next)
         due = [message for message in self._messages if message.when == "death" and message.number == self.deaths]
         starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
@@ -109,7 +109,7 @@ class MessageQueue:
         (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
 
     def _say_now(self, *texts: _Text) -> None:
-        """Show these texts at once, then what waits. A place or a time that was not read is waited for again."""
+        """Show these texts at once, then the waiting ones. An unread text of a place or a time comes again."""
         unread = [message for _, _, message in self._next] + [self.message] * self.is_unread
         again = {message for message in unread if message and message.when in _WAITS}
         self._shown -= again
@@ -129,7 +129,7 @@ class MessageQueue:
 
     @property
     def is_start(self) -> bool:
-        """Whether the present text belongs to the start, also when it is said no more."""
+        """Whether the present text belongs to the start, also when it is not shown any more."""
         return self._belongs_to_start(self.text)
 
     @property
@@ -143,12 +143,12 @@ class MessageQueue:
         return min(1.0, max(0.0, self._left / _FADE_TICKS)) if self.place else 1.0
 
     def say_again(self) -> None:
-        """Forget what was shown, after another run was watched: the player has not passed those events yet."""
+        """Forget which texts were shown: another run was watched, whose events the player has not passed yet."""
         self._shown.clear()
         self.at_start()
 
     def drop_start(self) -> None:
-        """The player has understood the goal, or is far from the start: do not say again what belongs to it."""
+        """Stop the texts of the start: the player has understood the goal, or is far from the start."""
         starts = [message for message in self._messages if message.when == "start"]
         self._shown.update(starts)
         self._next = [line for line in self._next if line[2] not in starts]
@@ -158,7 +158,7 @@ class MessageQueue:
         self.text = ""
 
     def add_read(self, ticks: int) -> None:
-        """The present text was shown for so many ticks more, in play or while the level waits at its start."""
+        """Count ticks for which the present text was shown, in play or while the level waits at its start."""
         self._read[self.text] += ticks
 
     def on_tick(self, world: World) -> bool:
@@ -207,7 +207,7 @@ class MessageQueue:
         if not (_is_near(world, message) and (place := message.place)):
             return False
         ninja = world.ninja.x, world.ninja.y
-        return place == ninja or solid_at(self._map, *place) or sees(self._map, world, *place, *ninja)[0]
+        return place == ninja or solid_at(self._tiles, *place) or sees(self._tiles, world, *place, *ninja)[0]
 
     def _slipped(self, world: World) -> float:
         """At a landing that calls for advice on climbing, the x of the wall's normal; else 0."""
@@ -238,16 +238,16 @@ def read_ticks(text: str) -> int:
 
 
 class Heard(NamedTuple):
-    """When a message comes in a run, and where the ninja is then, px."""
+    """The tick in which a message comes in a run, and the ninja's place then, px."""
 
     due: int  #: the tick in which it comes as the only one, from 0
-    tick: int | None  #: the same beside the others; None: never, because of them
+    tick: int | None  #: the tick in which it comes beside the other messages; None: they displace it
     spot: Point
     cut: int = 0  #: the ticks after which another replaces it before it was read; 0: none does
 
 
 def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Heard | None]:
-    """When each message comes in a run; None: its moment never does."""
+    """The moment of each message in a run; None if it never comes."""
     # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
     texts = [str(number).ljust(-(-len(message.text) // 20) * 20) for number, message in enumerate(messages)]
     numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
@@ -258,7 +258,7 @@ def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list
         if wanted is None or coming is None:
             comings.append(wanted and Heard(wanted.tick, None, wanted.spot))
         else:
-            # A level waits at its start: what is said there can be read before the run.
+            # A level waits at its start: its messages there can be read before the run.
             need = _GLANCE if message.when == "start" else read_ticks(text)
             is_cut = coming.ticks < min(wanted.ticks, need)
             comings.append(Heard(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
@@ -266,7 +266,7 @@ def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list
 
 
 def late_text(moment: Heard, ticks: int) -> str:
-    """What keeps a message from being read in time in a level's known run of so many ticks; '' if nothing does."""
+    """The reason why a message cannot be read in time in a level's known run of ``ticks``; '' without one."""
     run = f"in the known run ({ticks / TICKS_PER_SECOND:.1f} s)"
     if moment.tick is None:
         return f"not shown {run}: others are read then"
@@ -277,7 +277,7 @@ def late_text(moment: Heard, ticks: int) -> str:
 
 
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
-    """Findings about messages that are lost to others in the known run, except those after another of their moment."""
+    """Findings about messages that others displace in the known run, except those after another of their moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
     for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
         moment = message.when, message.number, message.cell
@@ -300,7 +300,7 @@ _Comings = dict[str, _Coming]
 
 @lru_cache(maxsize=256)
 def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
-    """How texts come in a run: beside each other, and each as if it were the only one."""
+    """The moments of texts in a run: of all together, and of each as if it were the only one."""
     run = Simulation(level)
     together, alone = _Comings(), _Comings()
     queues = [(MessageQueue([message], run.tiles), alone) for message in messages]

@@ -43,7 +43,7 @@ class Certificate:
 
     @property
     def problems(self) -> list[str]:
-        """Why it certifies nothing; empty if it does."""
+        """Reasons why the replay certifies nothing; empty if it is a sound certificate."""
         digest = level_digest(self.level)
         verdict = with_demands(self.verdict, {digest: self.place}, only_these=True, strict=True)
         if verdict.level_digest != digest:
@@ -128,15 +128,15 @@ def level_file_of(pack: Pack, file: str) -> str:
 
 
 def lint(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
-    """Every finding about the pack that is open: what ``findings`` finds and the pack does not accept."""
+    """The open findings about the pack: all ``findings`` but those that the pack accepts."""
     return (finding for finding in findings(pack, with_design=with_design, with_gold=with_gold) if not finding.reason)
 
 
 def findings(pack: Pack, *, with_design: bool = False, with_gold: bool = False) -> Iterator[PackFinding]:
-    """Every finding about the pack, those that its index accepts with the reason; none for a proper pack.
+    """All findings about the pack, also those that its index accepts, with the reason; none for a proper pack.
 
-    ``with_design``: what its levels lack, too (docs/good-levels.md); ``with_gold``: no run with all gold, too, where
-    no piece is out of reach.
+    ``with_design``: also findings about the design of its levels (docs/good-levels.md); ``with_gold``: also missing
+    runs with all gold, for levels in which no piece is out of reach.
     """
     reasons = pack.index.reasons
     for finding in _findings(pack, with_design=with_design, with_gold=with_gold):

@@ -18,7 +18,7 @@ from ninja_game.simulation import Simulation
 
 @lru_cache(maxsize=1024)
 def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Finding]:
-    """What is odd about a level: the same in the editor and in its pack.
+    """The findings about a level: the same in the editor and in its pack.
 
     ``inputs``: of a known run, in which messages may be lost. Raises LevelError for messages that cannot be read.
     """
@@ -31,7 +31,8 @@ def level_problems(level: Level, says: str = "", inputs: bytes = b"") -> list[Fi
 @lru_cache(maxsize=300)
 def _unlocked(level: Level, inputs: bytes, body: Body) -> set[tuple[float, float]]:
     """The places of the switches by which these inputs open doors, px. Cached, since the window's thread asks again."""
-    run, opened = Simulation(level, body=body), set[tuple[float, float]]()
+    run = Simulation(level, body=body)
+    opened = set[tuple[float, float]]()
     for keys in inputs:
         run.step_keys(keys)
         events = run.world.events[: run.world.event_count]

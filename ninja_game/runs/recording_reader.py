@@ -30,7 +30,7 @@ class Unreadable:
     """A file, or a record of one, that cannot be used."""
 
     message: str  #: names it
-    option: str = ""  #: as of BudgetError
+    option: str = ""  #: as ``BudgetError.option``
 
     def __str__(self) -> str:
         return "; ".join(filter(None, (self.message, self.option)))

@@ -202,11 +202,10 @@ def record_replay(
     author: str = "",
     budget: int = RUN_BUDGET,
 ) -> Replay:
-    """A replay of ours, with its level in it: the result of these inputs in that many ticks (None: as many as inputs).
+    """A replay of ours, with its level in it: the result of these inputs in ``ticks`` ticks (None: as many as inputs).
 
-    Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
-    can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError
-    as ``run_level`` does.
+    Ends with the first exit contact or death. Always runs on the plain memory, so that anybody can check its claims.
+    Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError.
     """
     keys = inputs_of(inputs)
     played = fit_inputs(keys, ticks) if ticks is not None else keys

@@ -82,8 +82,7 @@ def trace_recording(
 ) -> RunTrace:
     """The trace of a recording: of exactly ``ticks`` ticks, else until its end as in ``verify`` and ``after`` more.
 
-    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that exceeds its
-    ``budget`` of work.
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError beyond ``budget``.
     """
     with named_errors(recording):
         inputs = recording.replay.playback(min(recording.ticks + after, MAX_TICKS) if ticks is None else ticks)
@@ -222,7 +221,7 @@ class Difference:
     field: str  #: its name in the trace
     ours: object
     theirs: object
-    section: str = ""  #: of the specification, for the report
+    section: str = ""  #: section of the specification, for the report
 
     def __str__(self) -> str:
         about = f" (specification: {self.section})" if self.section else ""

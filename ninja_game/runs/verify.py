@@ -46,31 +46,30 @@ class OutOfRangeError(NinjaGameError):
 class Verdict:
     """The result of a recording, and what it was (docs/verification.md).
 
-    A run whose level does not count is not simulated: its ``outcome`` is "not run", ``possible_by_keyboard`` and
-    ``in_time`` are None.
+    A run whose level does not count is not simulated: outcome "not run", ``possible_by_keyboard``, ``in_time`` None.
     """
 
     file: str
     record: int
     name: str  #: as the recording says
     author: str  #: as the recording says
-    level_digest: str  #: of the level that was played
-    level_name: str  #: of the level with that digest among those that count, else ''
-    body: str  #: of the run: circle or box
+    level_digest: str  #: digest of the level that was played
+    level_name: str  #: name of the level with that digest among those that count, else ''
+    body: str  #: body of the run: circle or box
     rules: int  #: version of the rules that the recording names
     outcome: str  #: "exit", "dead" or "running"
     end_tick: int  #: the tick of the first exit contact or death; -1: neither
     gold: int
-    score_ticks: int | None  #: of a passed level, else None
-    ticks: int  #: how many were run: up to and including ``end_tick``, or all of the recording's
-    xy_sha256: str  #: of the ninja's positions
+    score_ticks: int | None  #: score of a passed level, else None
+    ticks: int  #: ticks that were run: up to and including ``end_tick``, or all of the recording's
+    xy_sha256: str  #: Sha256 (hex) of the ninja's positions
     possible_by_keyboard: bool | None  #: jumps are triggered exactly in the first tick of being held
     in_time: bool | None  #: the lifetime never ran out
     practice: bool  #: as the recording says
     complete: bool  #: the demo's text holds all frames that it claims
     problems: tuple[RunProblem, ...] = ()  #: every claim that does not hold
-    made: str = ""  #: how the recording says that it was made; "": unknown
-    assisted: bool | None = None  #: what follows from that; None: unknown
+    made: str = ""  #: the way that the run was made, by its own text; "": unknown
+    assisted: bool | None = None  #: whether it is an assisted run, by ``made``; None: unknown
     co_authors: str = ""  #: as the recording says
     episode: str = ""  #: key of the episode of a run in one
     lifetime: int = LIFETIME  #: ticks at the start

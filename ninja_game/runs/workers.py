@@ -31,7 +31,7 @@ R = TypeVar("R")
 
 _AHEAD = 4  # jobs in flight for each worker: enough that none waits
 
-_TRIES = 3  # times that a job may kill a process before it is given up; a cluster's scheduler counts by itself
+_TRIES = 3  # times that a job may kill a process before it counts as lost; a cluster's scheduler counts by itself
 
 WORKER_BYTES = 2 << 30  # memory of a worker process, on systems with such limits
 JOB_SECONDS = 3600  # processor time of one job there
@@ -50,8 +50,7 @@ class WorkerLostError(NinjaGameError):
 class Local:
     """Threads or processes of this machine.
 
-    ``count``: jobs that run at a time; ``lost``: raised when a worker died; ``tries``: losses after which a job is
-    given up.
+    ``count``: jobs that run at a time; ``lost``: raised when a worker died; ``tries``: most tries of a job.
     """
 
     lost: tuple[type[BaseException], ...] = (BrokenProcessPool, MemoryError)

@@ -126,7 +126,7 @@ def expand(
                 if limit == 0:
                     continue
                 copy_words(start.scratch, start.node)
-                played = play_macro(start.levels[0], w, direction, mode, limit)
+                played = play_macro(start.maps[0], w, direction, mode, limit)
                 action = action_code(direction, mode, held, played)
             else:
                 first = row + (choice - CHOICES + 1) % FOLLOW_CHOICES - 1
@@ -136,7 +136,7 @@ def expand(
                 played = 0
                 if known is not None:
                     limit = FEWEST_TICKS_FOLLOWED + random_below(counters, DRAWN_TICKS_FOLLOWED)
-                    played = follow(start.levels[0], w, known.keys, first, limit)
+                    played = follow(start.maps[0], w, known.keys, first, limit)
                 action = followed_code(first, played)
             counters.ticks += played
             if w.outcome == OUTCOME_RUNNING and played > 0:
@@ -358,5 +358,5 @@ def survives(node: Node, start: Start, arrays: SearchArrays, rollouts: int) -> b
                 return True
             direction = random_below(counters, 3) - 1
             mode = RELEASED if random_below(counters, 3) else PRESSED
-            counters.ticks += play_macro(start.levels[0], w, direction, mode, 4 + random_below(counters, 30))
+            counters.ticks += play_macro(start.maps[0], w, direction, mode, 4 + random_below(counters, 30))
     return False

@@ -24,6 +24,7 @@ from ninja_game.search.legs import (
     PieceTicks,
     Spend,
     piece_numbers,
+    put_checkpoint,
     short_tour,
 )
 from ninja_game.search.nodes import PASSES, Resolution, Start
@@ -56,7 +57,7 @@ HOPE = 1.1  # a pass ends where the estimated ticks exceed those of the best run
 @kernel
 def play_on(start: Start, keys: int) -> None:
     w = start.worlds[1]
-    step(start.levels[0], w, with_press_bit(keys & KEYS_DOWN, w.ninja.jump_held))
+    step(start.maps[0], w, with_press_bit(keys & KEYS_DOWN, w.ninja.jump_held))
 
 
 class GoldBeam:
@@ -158,10 +159,8 @@ class GoldBeam:
         return None, len(checkpoints)
 
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
-        key = (checkpoint.taken, checkpoint.mask)
-        frontiers = self.depths.setdefault(checkpoint.taken.bit_count() + checkpoint.mask.bit_count(), {})
-        left = [piece for piece in tour if not checkpoint.taken >> piece & 1]
-        frontiers.setdefault(key, Frontier(*key, tour=left)).add(checkpoint, BEAM_WIDTH)
+        depth = checkpoint.taken.bit_count() + checkpoint.mask.bit_count()
+        put_checkpoint(self.depths.setdefault(depth, {}), checkpoint.taken, checkpoint, tour, BEAM_WIDTH)
 
     def _value(self, frontier: Frontier) -> float:
         """Ticks so far plus the estimated ticks to come along the frontier's tour."""

@@ -48,16 +48,16 @@ Blocks = NDArray[np.uint8]
 
 
 @kernel
-def free_points(levels: Any, costs: Costs) -> None:
+def free_points(maps: Any, costs: Costs) -> None:
     """Set the cost factor of every point: 1 if the ninja fits among the tiles, 0 if not."""
-    level = levels[0]
+    tiles = maps[0]
     for point in range(POINTS):
         x = _SPACING * (point % ACROSS)
         y = _SPACING * (point // ACROSS)
-        free = not solid_at(level, x, y)
+        free = not solid_at(tiles, x, y)
         if free:
             for k in range(12):
-                if solid_at(level, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):
+                if solid_at(tiles, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):
                     free = False
                     break
         costs[point] = 1.0 if free else 0.0
@@ -156,26 +156,26 @@ class Switchable(NamedTuple):
     """An exit (``door`` is False) or a locked or trap door, with its switch and the points that it blocks."""
 
     slot: int
-    door: bool
-    trap: bool  #: whether it is a trap door
     x: float  #: px, as all places
     y: float
     switch_x: float
     switch_y: float
-    bars: tuple[int, ...]  #: indices of the blocked points
+    bars: tuple[int, ...] = ()  #: indices of the blocked points
+    door: bool = False
+    trap: bool = False  #: whether it is a trap door
 
 
 class Heuristics:
     """Distance fields of one level, by switch state.
 
-    ``levels``: the level as kernels take it; ``worlds``: a new world in it, as a record.
+    ``maps``: the level as kernels take it; ``worlds``: a new world in it, as a record.
     """
 
-    def __init__(self, levels: Any, worlds: WorldArray) -> None:
+    def __init__(self, maps: Any, worlds: WorldArray) -> None:
         used = int(worlds["slots_used"][0])
         objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
-        compiled_if_possible(free_points)(levels, self.costs)
+        compiled_if_possible(free_points)(maps, self.costs)
         self.blocked = np.zeros(POINTS, np.uint8)
         self._queue = np.zeros(POINTS + 1, np.int32)
         self._waiting = np.zeros(POINTS, np.uint8)
@@ -186,10 +186,10 @@ class Heuristics:
             x, y = float(record["x"]), float(record["y"])
             if kind == kinds.EXIT:
                 switch = objects[int(record["partner"])]
-                exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
+                exits.append(Switchable(slot, x, y, float(switch["x"]), float(switch["y"])))
             elif kind == kinds.DOOR and int(record["mechanism"]) != AUTOMATIC:
                 trap = int(record["mechanism"]) != LOCKED
-                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(record["edge_1"]))))
+                doors.append(Switchable(slot, x, y, x, y, _bars(int(record["edge_1"])), door=True, trap=trap))
             elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
             elif kind == kinds.MINE:

@@ -109,7 +109,7 @@ def improve(
 
 
 def _led_to_exit(task: Task, ticks: int) -> bytes | None:
-    """A run to the exit that begins like the task's, which ends after so many ticks; else another's, or None."""
+    """A run to the exit that begins like the task's, which ends after ``ticks``; else another's, or None."""
     begin, half = task.first[:ticks], task.seconds / 2
     way = to_exit(task.level, begin, half, body=task.body, seed=task.seed, threads=task.jobs)
     passing = (keys for keys in task.others if run_level(task.level, keys, body=task.body).outcome == "exit")
@@ -119,7 +119,7 @@ def _led_to_exit(task: Task, ticks: int) -> bytes | None:
 def simplified_run(task: Task, run: Replay, price: int | None) -> Replay:
     """The run without keys that do nothing, verified.
 
-    ``price``: also with fewer key changes, at most so many ticks longer and with no less gold.
+    ``price``: also with fewer key changes, at most this many ticks longer and with no less gold.
     """
     inputs = without_idle_keys(task.level, run.inputs, task.first, body=run.body)
     if price is not None:

@@ -68,7 +68,7 @@ def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], unt
     if noted:
         note(run, w, switch_slots)
     for tick in range(until):
-        step(start.levels[0], w, with_press_bit(run.keys[tick], w.ninja.jump_held))
+        step(start.maps[0], w, with_press_bit(run.keys[tick], w.ninja.jump_held))
         if noted:
             note(run, w, switch_slots)
         if w.outcome != OUTCOME_RUNNING:

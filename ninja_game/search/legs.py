@@ -57,7 +57,7 @@ class Frontier:
     tour: list[int] = field(default_factory=list)  #: numbers of the pieces to come
     tries: int = 0  #: searches from here
     spent: int = 0  #: their ticks
-    failed: Counter[int] = field(default_factory=Counter)  #: how often a piece was not reached
+    failed: Counter[int] = field(default_factory=Counter)  #: failed searches, by piece
 
     def add(self, checkpoint: Checkpoint, width: int) -> None:
         """Keep a checkpoint if it is among the earliest; if possible, keep one of each variety."""
@@ -75,6 +75,17 @@ class Frontier:
         return self.taken.bit_count()
 
 
+def put_checkpoint(
+    frontiers: dict[tuple[int, int], Frontier], gold: int, checkpoint: Checkpoint, tour: list[int], width: int
+) -> Frontier:
+    """Put a checkpoint into its frontier, a new one with the rest of the tour where there is none; gives it."""
+    key = (gold, checkpoint.mask)
+    if key not in frontiers:
+        frontiers[key] = Frontier(*key, tour=[piece for piece in tour if not checkpoint.taken >> piece & 1])
+    frontiers[key].add(checkpoint, width)
+    return frontiers[key]
+
+
 def piece_numbers(taken: int) -> Iterator[int]:
     """The numbers of the pieces in a set of bits."""
     return (k for k in range(taken.bit_length()) if taken >> k & 1)
@@ -83,7 +94,7 @@ def piece_numbers(taken: int) -> Iterator[int]:
 class Leg(NamedTuple):
     """A search from some checkpoints to the next piece of gold or switch, or to the exit."""
 
-    roots: Sequence[Checkpoint]  #: where it starts
+    roots: Sequence[Checkpoint]  #: checkpoints at which it starts
     until: int  #: pieces at which it ends, as it does when the open switches differ from ``mask``; 0: only at the exit
     mask: int
     gold: int  #: pieces that a run must have at the exit

@@ -129,7 +129,7 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
 
 CHECKPOINT = 8  # ticks between the save-states of the current run
 SPARE_TICKS = 64  # ticks by which a current run may be longer than the first run of the local search
-LEASH = 90.0  # px; a trial run farther than this from the current run's path is given up
+LEASH = 90.0  # px; a trial run farther than this from the current run's path is dropped
 
 
 @struct
@@ -178,7 +178,7 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
     for k in range(first * CHECKPOINT, limit):
         if k % CHECKPOINT == 0:
             copy_words(runs.checkpoints[k // CHECKPOINT], start.scratch)
-        step(start.levels[0], w, with_press_bit(runs.current[k], w.ninja.jump_held))
+        step(start.maps[0], w, with_press_bit(runs.current[k], w.ninja.jump_held))
         runs.path[k, 0] = w.ninja.x
         runs.path[k, 1] = w.ninja.y
         if w.outcome != OUTCOME_RUNNING:
@@ -188,9 +188,9 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
 
 @fast
 def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: int) -> tuple[int, float]:
-    """Play the trial run from tick ``first`` on; gives the last tick played and the score, UNREACHED if given up.
+    """Play the trial run from tick ``first`` on; gives the last tick played and the score, UNREACHED if dropped.
 
-    It is given up far from the current run's path. It ends early, with that run's score, where its state and its
+    It is dropped far from the current run's path. It ends early, with that run's score, where its state and its
     remaining keys equal those of the current run.
     """
     w = start.worlds[1]
@@ -200,7 +200,7 @@ def try_run(start: Start, runs: Runs, first: int, shift: int, limit: int, gold: 
     while runs.trial[differs - 1] == runs.current[differs - 1]:
         differs -= 1
     for k in range(first, limit):
-        step(start.levels[0], w, with_press_bit(runs.trial[k], w.ninja.jump_held))
+        step(start.maps[0], w, with_press_bit(runs.trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
             return k + 1, score_of(w) if w.outcome == OUTCOME_EXIT and w.gold >= gold else UNREACHED
         if (k + 1) % CHECKPOINT == 0:

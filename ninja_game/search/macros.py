@@ -1,8 +1,7 @@
 """Macros: keys of the ninja for a few ticks. A search chooses macros, not single inputs.
 
 An action is a number: direction + 1 (bits 0-1), mode (bits 2-3), whether the jump key was down before (bit 4), ticks
-played (from bit 8 on). Its inputs can be derived from it. As on a keyboard, the jump key triggers exactly in the tick
-in which it goes down.
+played (from bit 8 on). Its inputs follow from it. As on a keyboard, jump triggers when its key goes down.
 """
 
 from __future__ import annotations
@@ -37,7 +36,7 @@ def macro_keys(direction: int, mode: int, held: int, k: int) -> int:
 
 
 @fast
-def play_macro(level: TileMap, w: World, direction: int, mode: int, limit: int) -> int:
+def play_macro(tiles: TileMap, w: World, direction: int, mode: int, limit: int) -> int:
     """Play at most ``limit`` ticks; gives the number played.
 
     A macro ends early at a new decision: the ninja lands, leaves the ground or meets a wall, or the run ends.
@@ -47,7 +46,7 @@ def play_macro(level: TileMap, w: World, direction: int, mode: int, limit: int) 
     in_air = n.in_air
     near_wall = n.near_wall
     for k in range(limit):
-        step(level, w, macro_keys(direction, mode, held, k))
+        step(tiles, w, macro_keys(direction, mode, held, k))
         if w.outcome:
             return k + 1
         if (n.in_air != in_air or (n.near_wall and not near_wall)) and (k > 0 or mode != PRESSED_AGAIN):
@@ -68,12 +67,12 @@ def action_inputs(action: int) -> bytes:
 
 
 @fast
-def follow(level: TileMap, w: World, keys: Keys, row: int, limit: int) -> int:
+def follow(tiles: TileMap, w: World, keys: Keys, row: int, limit: int) -> int:
     """Continue with a known run's keys from a row on, at most ``limit`` ticks; gives the number played."""
     for k in range(limit):
         if row + k >= len(keys):
             return k
-        step(level, w, with_press_bit(keys[row + k], w.ninja.jump_held))
+        step(tiles, w, with_press_bit(keys[row + k], w.ninja.jump_held))
         if w.outcome:
             return k + 1
     return limit

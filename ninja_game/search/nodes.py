@@ -107,7 +107,7 @@ class Counters(RandomState):
 
 
 class Resolution(NamedTuple):
-    """How finely a search looks."""
+    """The resolution of a search: states within these steps of each other count as the same."""
 
     cell: float = 12.0  #: size of a place, px
     speed: float = 1.0  #: size of a velocity, px/tick
@@ -115,11 +115,11 @@ class Resolution(NamedTuple):
     jitter: int = 0  #: most ticks by which a macro is longer, at random
     weight: float = 2.0  #: factor of the estimated ticks to go
     patience: int = 40  #: ticks after which the same place counts as new
-    visits: int = 1  #: how often a place counts, at most
+    visits: int = 1  #: most times that a place counts
     enemy_cell: float = 0.0  #: size of a place of the enemies near the ninja, px; 0: enemies are ignored
-    enemy_reach: float = 100.0  #: how near they are: |dx| + |dy|, px
-    slack: float = 0.0  #: of a guided search: ticks by which an estimate may exceed the best run, in a plan a share
-    off_table: float = 1.0  #: of a guided search: factor of a tick where the guide knows nothing
+    enemy_reach: float = 100.0  #: reach for these enemies: |dx| + |dy|, px
+    slack: float = 0.0  #: guided search: ticks by which an estimate may exceed the best run, in a plan a share
+    off_table: float = 1.0  #: guided search: factor of a tick where the guide knows nothing
     shift_x: float = 0.0  #: offset of the cells of places, px; each search draws its own
     shift_y: float = 0.0  #: px
     shift_vx: float = 0.0  #: offset of the cells of velocities, px/tick
@@ -132,10 +132,10 @@ class Start(NamedTuple):
     The words are views of the states of all three worlds.
     """
 
-    levels: Any
+    maps: Any  #: the one level as kernels take it
     worlds: Any  #: the two worlds: the expanded node, scratch
-    initial: StateWords  #: of the level at tick 0; they never change
-    node: StateWords  #: of the expanded node
+    initial: StateWords  #: words of the level at tick 0, which never change
+    node: StateWords  #: words of the expanded node
     scratch: StateWords
 
 
@@ -167,12 +167,12 @@ def ticks_at_once(start: Start) -> int:
 
 def open_start(level: Level, *, box: bool) -> Start:
     """Load a level. Raises LevelError if it cannot be played."""
-    levels, first = load_worlds(compiled, [level], box=box)
+    maps, first = load_worlds(compiled, [level], box=box)
     used = int(first["slots_used"][0])
     size = (used_bytes(used) - STATE_START) // 8
     initial = _words(first, 0, size).copy()
     worlds = new_worlds(2, used)
-    start = Start(levels, worlds, initial, _words(worlds, 0, size), _words(worlds, 1, size))
+    start = Start(maps, worlds, initial, _words(worlds, 0, size), _words(worlds, 1, size))
     start.node[:] = initial
     start.scratch[:] = initial
     return start

@@ -23,6 +23,7 @@ from ninja_game.search.legs import (
     LegFields,
     Spend,
     piece_numbers,
+    put_checkpoint,
     short_tour,
 )
 from ninja_game.search.nodes import Resolution
@@ -174,15 +175,13 @@ class Route:
 
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
         """Put a checkpoint into its frontier; the frontier keeps the best."""
-        key = (checkpoint.taken if self.gold else 0, checkpoint.mask)
-        left = [piece for piece in tour if not checkpoint.taken >> piece & 1]
-        frontier = self.frontiers.setdefault(key, Frontier(*key, tour=left))
+        gold = checkpoint.taken if self.gold else 0
+        frontier = put_checkpoint(self.frontiers, gold, checkpoint, tour, ROUTE_WIDTH)
         self.ever_taken |= checkpoint.taken
         self.most = max(self.most, frontier.count)
         if checkpoint.before and frontier.count >= self.gold:
             self.last_taken |= checkpoint.taken & ~checkpoint.before.taken
         self._most_now = max(self._most_now, self._done(frontier))
-        frontier.add(checkpoint, ROUTE_WIDTH)
 
     def _target(self, frontier: Frontier) -> int:
         """The piece to fetch next from a frontier, -1: the exit or its switch.

@@ -45,6 +45,8 @@ from ninja_game.search.task import (
 
 
 class _Job:
+    """One of the solver's threads: the searches of its turn, one after the other, with its own memory and seed."""
+
     def __init__(self, state: SharedProgress, number: int) -> None:
         task = state.task
         self.state = state
@@ -53,7 +55,7 @@ class _Job:
         self.work = 0.0
         self.plan = WorkPlan()
         self.start = open_start(task.level, box=task.body == "box")
-        self.heuristics = Heuristics(self.start.levels, self.start.worlds)
+        self.heuristics = Heuristics(self.start.maps, self.start.worlds)
         self._gold_beam: GoldBeam | None = None
         self._turn = self._routes_tried = 2 * number
         self.shortener = RunShortener(

@@ -127,7 +127,8 @@ class SpanSearches:
             end = search.run(min(SPAN_SLICE, ticks - before))
             if spend(search.ticks - before):
                 break
-        is_early, is_late = end == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
+        is_early = end == EXHAUSTED and search.ticks < FEW_TICKS
+        is_late = search.ticks >= MANY_TICKS
         factor = self._delay_factor * (1.15 if is_early else 0.8 if is_late else 1.0)
         self._delay_factor = min(max(factor, MIN_DELAY_FACTOR), MAX_DELAY_FACTOR)
         span = search.best()

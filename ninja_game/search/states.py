@@ -1,4 +1,4 @@
-"""What a search computes of a state: its key, its switch state, its gold, its estimated ticks to go."""
+"""Values that a search computes from a state: key, switch state, gold, estimated ticks to go."""
 
 from __future__ import annotations
 

@@ -206,7 +206,7 @@ class WorkPlan:
 
     routes_until: float = 0.25  #: share of the work that only searches other routes
     spans: int = 20_000_000  #: ticks of span searches per turn
-    spans_with_gold: int = 6_000_000  #: the same where gold is wanted
+    spans_with_gold: int = 6_000_000  #: ticks of span searches per turn if gold is wanted
     first_local: int = 20_000_000  #: ticks of the first local search of ``improve``
     local: int = 8_000_000  #: ticks of each later local search
 

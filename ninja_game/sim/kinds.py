@@ -29,7 +29,7 @@ class Kind(NamedTuple):
     fields: type  #: its class in the schema
     disc: float | None = None  #: radius of the disc that the ninja touches, px; a door's: of an automatic one
     box: float | None = None  #: half side of the square that the ninja touches, px; without both it cannot be touched
-    killer: str = ""  #: its name as a cause of death; "": it never kills
+    killer: str = ""  #: name as a cause of death; "": it never kills
     by_touch: bool = False  #: whether touching it kills
     moves: bool = False  #: whether it is drawn in every frame, not once with the walls
     traced: bool = True  #: whether traces show it

@@ -96,14 +96,14 @@ class Level:
         return self.tiles[(column - 1) * ROWS + (row - 1)]
 
 
-def check_level(data: object) -> None:
+def check_level(level: object) -> None:
     """Raise LevelError for anything but a level: 713 whole numbers and records of numbers."""
-    if not isinstance(data, Level):
+    if not isinstance(level, Level):
         hint = "load_level(path) and parse_level(text) read one"
-        raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
-    if len(data.tiles) != TILES or not all(isinstance(tile, int) for tile in data.tiles):
+        raise LevelError("this is not a level", found=repr(level)[:40], expected="a Level", hint=hint)
+    if len(level.tiles) != TILES or not all(isinstance(tile, int) for tile in level.tiles):
         raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
-    for number, spec in enumerate(data.objects):
+    for number, spec in enumerate(level.objects):
         try:
             good = isinstance(spec.kind, int) and all(isinstance(float(value), float) for value in spec.values)
         except (TypeError, ValueError, OverflowError, AttributeError):

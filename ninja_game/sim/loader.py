@@ -16,15 +16,22 @@ from ninja_game.sim.schema.declare import fast
 from ninja_game.sim.schema.world_fields import CAPACITY, Ninja, TileMap, World
 
 
-def grid_tiles(data: Level) -> list[int]:
+def grid_tiles(level: Level) -> list[int]:
     """The tile of every grid index: the level's 31 x 23, a border of full tiles, and a ring of empty cells."""
     tiles = [0] * STRIDE + ([0] + [1] * GRID_COLUMNS + [0]) * GRID_ROWS + [0] * STRIDE
-    ids = data.tiles
+    ids = level.tiles
     if min(ids) < 0 or max(ids) >= ODD_HALF_ID:
         ids = tuple(UNDEFINED_ID if tile < 0 else min(tile, ODD_HALF_ID) for tile in ids)
     for row in range(ROWS):
         start = (row + 2) * STRIDE + 2
         tiles[start : start + COLUMNS] = ids[row::ROWS]
+    return tiles
+
+
+def tile_map(level: Level) -> TileMap:
+    """A level as the rules read it."""
+    tiles = TileMap()
+    tiles.ids = grid_tiles(level)
     return tiles
 
 
@@ -37,14 +44,14 @@ class ObjectTable(NamedTuple):
     slots: int
 
 
-def object_table(data: Level) -> ObjectTable:
+def object_table(level: Level) -> ObjectTable:
     """Collect the records that make an object. Every level is checked here, whatever its origin.
 
     The rules can rely on what passes. A record of an unknown kind creates nothing (objects.md §2.1). Raises LevelError
     for an argument that is not a level, and for a level without a ninja or with too many objects.
     """
-    check_level(data)
-    specs = list(filter(makes_object, data.objects))
+    check_level(level)
+    specs = list(filter(makes_object, level.objects))
     kinds = [int(spec.kind) for spec in specs]
     if NINJA not in kinds:
         raise LevelError("this level cannot be played: it has no ninja", hint="add one, a record of type 5")
@@ -62,17 +69,17 @@ def object_table(data: Level) -> ObjectTable:
 
 @fast
 def populate(
-    level: TileMap, w: World, kinds: Sequence[int], counts: Sequence[int], values: Sequence[Sequence[float]]
+    tiles: TileMap, w: World, kinds: Sequence[int], counts: Sequence[int], values: Sequence[Sequence[float]]
 ) -> None:
     """Create the object of every record; its id is its index. Edges must be set; objects must be zero.
 
     ``values`` holds nine numbers per record, ``counts`` how many of them the record really had.
     """
-    ids = len(kinds)
-    w.id_count = ids
-    w.slots_used = ids + 1
+    count = len(kinds)
+    w.id_count = count
+    w.slots_used = count + 1
     place_ninja(w.ninja, 0.0, 0.0)
-    for index in range(ids):
+    for index in range(count):
         kind = kinds[index]
         o = w.objects[index + 1]
         o.id = index
@@ -93,7 +100,7 @@ def populate(
             o.kind = kind
             o.x = record[0]
             o.y = record[1]
-            create(level, w, o, record)
+            create(tiles, w, o, record)
 
 
 @fast

@@ -11,22 +11,22 @@ from ninja_game.sim.states import DEAD
 
 
 @fast
-def step(level: TileMap, w: World, keys: int) -> None:
+def step(tiles: TileMap, w: World, keys: int) -> None:
     """Advance the world by one tick. ``keys``: the keys of this tick, a sum of ``Input`` flags."""
     w.event_count = 0
     # 1. All objects in the update set, the most recently started first.
     if w.update_head:
-        update_objects(level, w)
+        update_objects(tiles, w)
     # 2. At most one thinking object; one thinks every fourth tick.
     if w.think_cursor:
         if w.think_counter >= THINK_PAUSE:
             w.think_counter = 0
-            think(level, w, w.objects[w.think_cursor])
+            think(tiles, w, w.objects[w.think_cursor])
             if w.think_cursor:
                 w.think_cursor = w.objects[w.think_cursor].ring_next
         else:
             w.think_counter += 1
     # 3. The ninja, which tests the objects of nine cells and the tiles of the cells that it touches.
     if w.ninja.state != DEAD:
-        tick_ninja(level, w, keys)
+        tick_ninja(tiles, w, keys)
     w.tick += 1

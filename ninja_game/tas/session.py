@@ -173,7 +173,8 @@ class TasSession:
 
     def _look_back(self) -> None:
         """Keep the state before an edit."""
-        self.before, self.before_track = self.timeline.trajectory(), self.track
+        self.before = self.timeline.trajectory()
+        self.before_track = self.track
 
     def _follow(self, ticks: int | None = None) -> None:
         """Simulate the input track, and write it to the journal."""
@@ -234,7 +235,8 @@ class TasSession:
 
     def _keep_opened(self) -> None:
         """Keep the run as it was opened as a branch, before its first edit; that alone leaves nothing to save."""
-        saved, inputs = self._kept() == self._saved_branches, self.track.inputs
+        saved = self._kept() == self._saved_branches
+        inputs = self.track.inputs
         if inputs and all(branch.track.inputs != inputs for branch in self.branches.all):
             self.keep_branch(OPENED)
             self._saved_branches = self._kept() if saved else self._saved_branches

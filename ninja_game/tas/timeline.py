@@ -83,7 +83,7 @@ class Timeline:
             **{name: np.zeros(0, np.int32) for name in TRACED_INTS},
         }
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
-        self._events: dict[int, str] = {}  #: of the ticks that have any
+        self._events: dict[int, str] = {}  #: events in words, for ticks that have any
         self.inputs = b""
         self._death = b"", ""
         self.simulated_until = self._ticks_on_plain = 0
@@ -172,7 +172,8 @@ class Timeline:
         for name, values in ninja_columns(record).items():
             self._columns[name][first:stop] = values
         if self.watched:
-            watched, objects = self._objects[first:stop], object_rows(record, len(self.watched))
+            watched = self._objects[first:stop]
+            objects = object_rows(record, len(self.watched))
             for name in ("x", "y", "s"):
                 watched[name] = objects[name]
             watched["switched"] = switched_doors(record, len(self.watched))
@@ -252,7 +253,7 @@ class Timeline:
 
     @property
     def unended_text(self) -> str:
-        """That a run without an end goes on, and the exits whose switch it has not touched."""
+        """A sentence about a run without an end: that it goes on, and which exits' switches it has not touched."""
         world = self.world(self.simulated_until - 1)
         exits = (obj for obj in world.objects[1 : world.slots_used] if obj.kind == EXIT)
         shut = ", ".join(str(obj.id) for obj in exits if not getattr(obj, KIND_OF[EXIT].used))
@@ -290,7 +291,7 @@ NAMED_APART = 3  # objects that `difference_text` names at most
 
 
 def difference_text(ours: World, theirs: World) -> str:
-    """How far two worlds are apart in what decides later ticks, in words."""
+    """The differences of two worlds that decide later ticks, in words."""
     if state_digest(ours) == state_digest(theirs):
         return "in the same state: what follows plays as before"
     (x, y, vx, vy), (x2, y2, vx2, vy2) = (

@@ -38,9 +38,10 @@ TAS_COMMANDS = CommandTable(bundled_commands("tas-editor.txt"), BY_PAD)
 """All commands with a key, unless the player plays on by hand: then the keys of the game count."""
 
 SPLICES = {
-    "splice_start": "Its beginning, then my rest", "splice_here": "My beginning, then its rest",
+    "splice_start": "Its beginning, then my rest",
+    "splice_here": "My beginning, then its rest",
     "splice": "The selected ticks",
-}  # fmt: skip
+}
 _SHOWN_OF_PATH = 38  # characters of the title
 _IN_MENU = {"save", "save_as", "open_other", "help"}
 

@@ -286,7 +286,8 @@ class Splitters(TasPart):
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             left, top, w, h = self.layout.level
-            self._side, self._grabbed = self._side_at(x, y), (x - left - w, y - top - h)
+            self._side = self._side_at(x, y)
+            self._grabbed = (x - left - w, y - top - h)
             self._before = self.layout
         elif event.type == pygame.MOUSEMOTION:
             side = self._side or self._side_at(x, y)

@@ -78,8 +78,11 @@ class OpeningScreen(Screen):
         self._compiles = False
         self._waited_ms = 0
         self._shown = "", ""
-        before_compiling.append(partial(setattr, self, "_compiles", True))
+        before_compiling.append(self._note_compiling)
         self._thread = run_in_background(lambda: prepare(run), self._note_problem)
+
+    def _note_compiling(self) -> None:
+        self._compiles = True
 
     def _note_problem(self, why: str) -> None:
         def refuse() -> TasScreen:

@@ -150,7 +150,8 @@ class TasScreen(WorkspaceScreen):
             self.held.follow(event.raw)
             return True
         hides = self.level.take_over.on and "boss" in event.pressed
-        taken, escape = not hides and super().capture(event), event.source == ("keys", "escape")
+        taken = not hides and super().capture(event)
+        escape = event.source == ("keys", "escape")
         if taken and escape:
             self.tab.left()
         return taken or (escape and not hides and self.tab.stop())
@@ -166,6 +167,8 @@ class TasScreen(WorkspaceScreen):
 
 
 class Head(TasPart):
+    """The line above the level: the file, its players, the end of the run, and whether all is saved."""
+
     slot = "head"
 
     def render_key(self) -> tuple[object, ...]:
@@ -205,6 +208,8 @@ class Head(TasPart):
 
 
 class Foot(TasPart):
+    """The line below the level: the cursor's tick, the selection, the run beside, and a hint."""
+
     slot = "foot"
 
     def render_key(self) -> tuple[object, ...]:

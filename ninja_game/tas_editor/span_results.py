@@ -257,13 +257,14 @@ class SpanResults:
 
     @property
     def advice(self) -> str:
-        """What the nearest miss lacks, and what to try; "" if there is a result."""
+        """The parts of the goal that the nearest miss lacks, with advice; "" if there is a result."""
         miss = next((result for result in self.better if result.missed_by is not None), None)
         if miss is None:
             return ""
         # A miss is simulated only if its end is shown: nearer misses come often during a search.
         to_exit = miss.missed_by == 0.0 or "won" in self.task.goal
-        last, ending = self.task.first + miss.ticks - 1, self.shown_run(miss).ending if to_exit else ""
+        last = self.task.first + miss.ticks - 1
+        ending = self.shown_run(miss).ending if to_exit else ""
         if miss.missed_by == 0.0:
             return f"With what follows the goal, {ending}. Try: {WITHOUT_REST.lower()}; or Same end, sooner."
         lacks = ", ".join(miss.missing) or score_text(self.task, miss).removeprefix("closest: ").partition(" after ")[0]

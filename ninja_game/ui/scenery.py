@@ -72,7 +72,7 @@ def scenery_sheet(palette: Palette) -> pygame.Surface:
 
 @lru_cache(maxsize=_SHEETS)
 def grain(palette: Palette, role: str) -> pygame.Surface:
-    """What to subtract from rock in a role's colour, for a palette with scenery, so that the rock's marks are left.
+    """The picture to subtract from rock in a role's colour, for a palette with scenery, so that the rock's marks stay.
 
     It is shared, so never draw on it.
     """
@@ -203,7 +203,9 @@ def _crystals(sheet: pygame.Surface, colour: pygame.Color, base: float, numbers:
     _ridge(sheet, colour, lambda x: base + 44 - 10 * sin(x / 31 + base))
     x = 10 * next(numbers)
     while x < _WIDE + 20:
-        width, top, lean = 10 + 18 * next(numbers), base + 20 - 100 * next(numbers), 70 * (next(numbers) - 0.5)
+        width = 10 + 18 * next(numbers)
+        top = base + 20 - 100 * next(numbers)
+        lean = 70 * (next(numbers) - 0.5)
         tip = x + lean, top
         shoulder = width * 0.5
         pygame.draw.polygon(

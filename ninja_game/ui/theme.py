@@ -56,8 +56,7 @@ class Theme:
     ) -> pygame.Rect:  # fmt: skip
         """Draw a text (or, without a surface, only measure it); its px rectangle. ``y``: its top in the normal size.
 
-        ``width``, ``height``: the room for it, logical px; without a width up to the window's edge, without a height
-        unlimited.
+        ``width``, ``height``: the room for it, logical px; by default up to the window's edge, and unlimited.
         """
         most = self._room(x, align) if width is None else min(width, self._room(x, align))
         scale = self.largest(text, size, most, bold=bold, height=height)
@@ -248,7 +247,7 @@ PALETTES = _read_palettes()
 CLASSIC = PALETTES["classic"]
 
 MOODS = tuple(PALETTES[name] for name in ("morning", "noon", "afternoon", "dusk", "night"))
-"""By column of episodes; a pack with more columns begins again."""
+"""The moods by column of episodes; a pack with more columns begins again."""
 
 GROUND_ROLES = "sky", "background", "far", "near"
 """From the upper edge of the sky to the lower one, then from the farthest layer to the nearest one."""
@@ -257,7 +256,7 @@ TONES = (
     ((0, 1.0, 0), (-62, 1.7, -42), (34, 1.5, 52), (-150, 1.3, -96), (62, 1.2, 100)),
     *(tuple((turn * tone, 1.0, turn * tone) for tone in range(5)) for turn in (-16, 9, 15, -16)),
 )
-"""By mood and tone: degrees in YIQ by which the scenery turns, factor of its saturation, degrees by which rock turns.
+"""Degrees in YIQ by which the scenery turns, factor of its saturation, degrees by which rock turns: by mood and tone.
 Consecutive levels of an episode have consecutive tones; each episode begins with another one.
 """
 
@@ -292,6 +291,12 @@ RUN_COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7
 def run_colour(number: int) -> pygame.Color:
     """The colour of a run by its number, from 0; after the last colour they begin again."""
     return RUN_COLOURS[number % len(RUN_COLOURS)]
+
+
+def plot_colour(number: int, palette: Palette) -> pygame.Color:
+    """The colour of a run on a panel: lighter than ``run_colour`` on dark ones, darker on light ones."""
+    dark = palette.panel.hsla[2] < 50
+    return run_colour(number).lerp("white" if dark else "black", 0.4 if dark else 0.25)
 
 
 def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:

@@ -94,7 +94,7 @@ class PlacedMessage(NamedTuple):
     text: str
     tiles: tuple[int, ...]  #: tiles and things to cover as little of as possible
     things: Things
-    place: Point | None  #: what it belongs to, px
+    place: Point | None  #: the place that it is about, px
     covers: bool  #: whether it may cover open space too; else it may lie in the border below
     near: bool = False  #: whether it lies beside its place, whatever it covers, and points to it
 
@@ -125,22 +125,22 @@ class HudView:
     """The texts over a level now."""
 
     lifetime: float  #: ticks, for the time bar
-    label: str  #: a word instead of the bar
+    label: str  #: word to show instead of the bar
     foot: tuple[str, str]  #: texts at the left and the right of the border below
     name: str = ""  #: the left text there when a message lies in the border
     pars: Sequence[tuple[str, float]] = ()  #: medals, and the lifetime at which each is lost, ticks
-    keys: int | None = None  #: of the present tick; None: not shown
-    frame_ms: float | None = None  #: of the last picture; None: not shown
+    keys: int | None = None  #: keys of the present tick; None: not shown
+    frame_ms: float | None = None  #: duration of the last picture; None: not shown
     message: PlacedMessage | None = None
     moves: Sequence[int] = ()  #: the keys of each line of the message
     letters: Sequence[str] = ()  #: on the keys left, jump and right
     named: Sequence[tuple[str, float, float]] = ()  #: names of things, and their places, px
     end: EndPanel | None = None
-    medal: str = ""  #: of the pass, or ""
+    medal: str = ""  #: medal of the pass, or ""
     stamp: float = 1.0  #: size of the medal, 0…1
     shine: float = 1.0  #: progress of the light over the medal, 0…1
-    end_opacity: float = 1.0  #: of the end panel, 0…1
-    ninja: Point | None = None  #: its place in play, px; a message over it fades
+    end_opacity: float = 1.0  #: opacity of the end panel, 0…1
+    ninja: Point | None = None  #: the ninja's place in play, px; a message over it fades
     softly: bool = True  #: whether that message fades slowly, not at once
     message_opacity: float = 1.0  #: apart from fading over the ninja, 0…1
 
@@ -149,7 +149,8 @@ class Hud:
     """Draws on a theme's canvas. Every method gives the px rectangle that it covered, or several small ones."""
 
     def __init__(self, theme: Theme, measures: Theme | None = None) -> None:
-        self.theme, self._measures = theme, measures or theme  #: the letters that tell where a text lies
+        self.theme = theme
+        self._measures = measures or theme  #: the letters by which the places of texts are measured
 
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""

@@ -174,7 +174,8 @@ class LevelView:
         won = world.ninja.state == CELEBRATING and not self.context.settings.reduced_motion
         self._won = self._won + 1 if won else 0
         if self._won == 1:
-            n, exits = world.ninja, (k for k, o in enumerate(world.objects) if o.kind == EXIT and o.is_open)
+            n = world.ninja
+            exits = (k for k, o in enumerate(world.objects) if o.kind == EXIT and o.is_open)
             self._door = min(exits, key=lambda k: hypot(world.objects[k].x - n.x, world.objects[k].y - n.y))
         if self._won == DANCE_TICKS + ENTER_TICKS:
             self.object_animation.close(self._door)

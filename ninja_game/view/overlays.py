@@ -157,7 +157,7 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
 
 def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
     """A line from each object that looks for the ninja: to the ninja in sight, else to the tile between."""
-    world, level = simulation.world, simulation.tiles
+    world, tiles = simulation.world, simulation.tiles
     n = world.ninja
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]
@@ -166,10 +166,10 @@ def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
         x, y = (o.base_x, o.base_y) if o.kind == LAUNCHER else (o.x, o.y)
         if not (x == x and y == y):  # noqa: PLR0124 - the test for NaN
             continue
-        if sees(level, world, x, y, n.x, n.y)[0]:
+        if sees(tiles, world, x, y, n.x, n.y)[0]:
             target.line(target.palette.bad, x, y, n.x, n.y, 0.8)
         else:
-            stopped, end_x, end_y = ray_tiles(level, world, x, y, n.x, n.y)
+            stopped, end_x, end_y = ray_tiles(tiles, world, x, y, n.x, n.y)
             if stopped:
                 target.line(target.palette.faint, x, y, end_x, end_y)
                 target.disc(target.palette.faint, end_x, end_y, 1.5)

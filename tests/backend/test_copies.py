@@ -95,7 +95,7 @@ def test_a_copied_environment_goes_on_alike_and_alone(kind: str, again: Again, m
     env.reset(seed=7)
 
     def steps(of: Any, count: int) -> list[bytes]:
-        """Everything that is told of some steps; a world that has ended begins a new episode."""
+        """All results of some steps; a world that has ended begins a new episode."""
         returned: list[Any] = []
         for number in range(count):
             observed, *rest = of.step(2 if kind == "single" else [2, 2, number % 6])

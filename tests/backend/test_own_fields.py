@@ -85,7 +85,7 @@ def test_searches_along_a_run() -> None:
     from ninja_game.search.spans import SpanSearches, SpanSettings
 
     start = open_start(LOCKED, box=False)
-    searches = SpanSearches(start, Heuristics(start.levels, start.worlds), gold=0)
+    searches = SpanSearches(start, Heuristics(start.maps, start.worlds), gold=0)
     searches.follow(verified_run(LOCKED, bytes([2] * 20 + [0] * 10 + [2] * 120)).inputs)
     assert searches.run.masks[-1] == 3, "a door and an exit are open at the end"
     settings = SpanSettings(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0, 64.0, 0.9, 2.0)

@@ -152,7 +152,7 @@ def test_recordings_of_several_files_keep_whose_they_were_in_their_names(tmp_pat
     ]  # fmt: skip
 
 
-def test_recordings_are_kept_by_a_level_file_and_told_of_where_they_are_not(tmp_path: Path) -> None:
+def test_recordings_are_kept_by_a_level_file_and_reported_where_they_are_not(tmp_path: Path) -> None:
     source = write_records(tmp_path / "two.txt", ("A", WALK, running(60)), ("B", SPIKED, ""))
     assert convert(source, tmp_path / "copy.txt", "--to", "file").stderr == ""
     assert (tmp_path / "copy.txt").read_text() == source.read_text()

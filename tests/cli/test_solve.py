@@ -261,7 +261,7 @@ def test_missing_gold_is_reported_and_does_not_fail_the_check(tmp_path: Path) ->
 
 
 def test_the_first_run_will_do_where_that_is_asked_for(tmp_path: Path) -> None:
-    """Otherwise so many ticks would take an hour."""
+    """Otherwise this many ticks would take an hour."""
     result = command("check", level_file(tmp_path, LEDGE), "--first", "--ticks", str(10**10), "--jobs", "1")
     assert result.exit_code == 0
 

@@ -10,7 +10,10 @@ import pytest
 
 from ninja_game.document import History
 from ninja_game.editor import stamp
-from ninja_game.editor.brush import (
+from ninja_game.editor.draft import Draft, changed_cells
+from ninja_game.editor.files import open_source
+from ninja_game.editor.motion import CLOCKWISE, MIRROR
+from ninja_game.editor.palette import (
     FAMILIES,
     OBJECT_TYPES,
     TILE_KEYS,
@@ -20,9 +23,6 @@ from ninja_game.editor.brush import (
     snapped,
     tile_name,
 )
-from ninja_game.editor.draft import Draft, changed_cells
-from ninja_game.editor.files import open_source
-from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.specs import points, word
 from ninja_game.editor.stamp import Selection, chosen_in, covered, rounded
 from ninja_game.editor.tools import EditorTools
@@ -36,7 +36,7 @@ from ninja_game.sim.level import Level
 @pytest.fixture(name="tools")
 def empty_tools() -> EditorTools:
     made = EditorTools(Draft(Level()))
-    made.snap = "half"
+    made.brush.snap = "half"
     return made
 
 
@@ -129,7 +129,7 @@ def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, nam
 
 
 def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools: EditorTools) -> None:
-    tools.snap = "cell"
+    tools.brush.snap = "cell"
     for name, at in (("automatic door", (262, 262)), ("launch pad", (300, 300)), ("floor guard", (350, 350)),
                      ("zap drone", (391, 402)), ("gold", (431, 431))):  # fmt: skip
         tools.pick_up(object_of_type(name))
@@ -138,7 +138,7 @@ def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools
         "automatic door 10,10 right", "launch pad 12,12 up", "floor guard 14,14",
         "zap drone 16,16 surface-cw right", "gold 17,17",
     ]  # fmt: skip
-    tools.snap = "px"
+    tools.brush.snap = "px"
     drag(tools, (433.2, 420.7))
     assert tools.draft.objects[-1].values == (433.0, 421.0)
 
@@ -206,7 +206,7 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
 def test_four_turns_are_none(area: tuple[int, int, int, int] | None, name: str) -> None:
     tools = EditorTools(Draft(Level()).with_tiles({(5, 5): 7}))
     for snap, x, y in (("cell", 132, 132), ("half", 150, 140), ("quarter", 162, 135)):
-        tools.snap = snap
+        tools.brush.snap = snap
         tools.pick_up(object_of_type(name))
         drag(tools, (x, y), (x + 20, y))
         tools.finish()
@@ -236,15 +236,15 @@ def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> N
 
 def test_properties_belong_to_what_is_selected_or_to_the_brush(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("one-way"))
-    tools.spec = placed(tools.spec, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0))
-    assert word(tools.spec, "direction") == "left"
+    tools.brush.spec = placed(tools.brush.spec, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0))
+    assert word(tools.brush.spec, "direction") == "left"
     drag(tools, (300, 300))
     tools.tool = "select"
     drag(tools, (300, 300))
     assert tools.chosen is not None
     tools.change_each(lambda spec: spec._replace(values=(300.0, 300.0, 1.0)))
     assert word(tools.draft.objects[0], "direction") == "down"
-    assert word(tools.spec, "direction") == "left"
+    assert word(tools.brush.spec, "direction") == "left"
 
 
 def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
@@ -255,15 +255,15 @@ def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
     tools.tool = "pick"
     tools.pick_up(1)
     drag(tools, (303, 300), pick=True)
-    assert object_type_of(tools.spec) == "mine"
+    assert object_type_of(tools.brush.spec) == "mine"
     tools.delete()
     assert forms(tools) == []
     drag(tools, (303, 300), pick=True)
-    assert (tools.draws_objects, tools.tile) == (False, 7)
+    assert (tools.brush.draws_objects, tools.brush.tile) == (False, 7)
 
 
 def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:
-    tools.symmetry = "both"
+    tools.brush.symmetry = "both"
     tools.pick_up(object_of_type("gold"))
     drag(tools, (100, 100))
     assert len(tools.draft.objects) == 4
@@ -302,7 +302,7 @@ def test_snaps() -> None:
 
 def test_gold_lies_evenly_along_a_line_that_the_wheel_bends(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
-    tools.tool, tools.spacing = "line", 36.0
+    tools.tool, tools.brush.spacing = "line", 36.0
     drag(tools, (60, 300), (276, 300))
     assert [spec.values for spec in tools.draft.objects] == [(60.0 + 36 * k, 300.0) for k in range(7)]
     tools.undo()
@@ -340,7 +340,7 @@ def picture(tools: EditorTools, columns: range, rows: range) -> list[str]:
 
 
 def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
-    tools.slopes = True
+    tools.brush.slopes = True
     tools.tool = "rectangle"
     drag(tools, (60, 60), (156, 132))
     assert picture(tools, range(1, 8), range(2, 6)) == [".#####."] * 4, "a box has corners"
@@ -351,7 +351,7 @@ def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
         drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
     hill = ["......fF###", ".....s#####", ".....######", "....s######", "...s#######", ".fF########", "s##########"]
     assert picture(tools, range(15, 26), range(17, 24)) == hill
-    tools.tile = 0
+    tools.brush.tile = 0
     for row in range(4):
         drag(tools, (588, 420 + 24 * row), (660, 420 + 24 * row))
     assert picture(tools, range(15, 26), range(17, 24))[:2] == ["......fFa..", ".....s###.."]
@@ -374,7 +374,7 @@ _UP = ["....#", "...sq", "..sq.", ".sq..", "#q..."]
 def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
     tools: EditorTools, ends: tuple[int, int, int, int], rows: list[str]
 ) -> None:
-    tools.slopes = True
+    tools.brush.slopes = True
     ax, ay, bx, by = ends
     # At every move of the mouse a cell on and a cell up or down.
     drag(tools, *((ax + (bx - ax) * k / 4, ay + (by - ay) * k / 4) for k in range(5)))
@@ -398,13 +398,13 @@ def test_slopes_drawn_along_their_line_have_no_notch_behind_them(
 ) -> None:
     before = tools.draft
     for slopes, notches in ((True, full), (False, set())):
-        tools.slopes, tools.tile, tools.tool = slopes, tile, tool
+        tools.brush.slopes, tools.brush.tile, tools.tool = slopes, tile, tool
         drag(tools, *((24 * k + 12, 24 * (8 - k) + 12) for k in range(2, 6)))
         drawn = {cell: tools.draft.tile(cell) for cell in changed_cells(before, tools.draft)}
         assert drawn == dict.fromkeys(notches, 1) | {(k, 8 - k): tile for k in range(2, 6)}
         tools.undo()
     tools.history.change(before.with_tiles(dict.fromkeys(full, 9)))
-    tools.slopes = True
+    tools.brush.slopes = True
     drag(tools, *((24 * k + 12, 24 * (8 - k) + 12) for k in range(2, 6)))
     assert {tools.draft.tile(cell) for cell in full} <= {9}, "what is there stays"
 
@@ -417,7 +417,7 @@ def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
         ("brush", 1, ((132, 276),)),
     ):
         tools = EditorTools(level)
-        tools.slopes, tools.tool, tools.tile = True, tool, tile
+        tools.brush.slopes, tools.tool, tools.brush.tile = True, tool, tile
         drag(tools, *ends)
         drawn = covered("line", cell_of(*ends[0]), cell_of(*ends[-1]), 0.0)
         changed = changed_cells(level, tools.draft)
@@ -426,7 +426,7 @@ def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
 
 
 def test_both_halves_of_a_slope_of_two_tiles_change_together(tools: EditorTools) -> None:
-    tools.slopes, tools.tool = True, "line"
+    tools.brush.slopes, tools.tool = True, "line"
     drag(tools, (60, 564), (756, 564))
     drag(tools, (156, 540), (756, 540))
     assert picture(tools, range(4, 10), range(22, 23)) == ["..fF##"]
@@ -440,7 +440,7 @@ def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorT
     drag(tools, *ends)
     assert picture(tools, range(2, 6), range(4, 9)) == ["...#", "..#.", ".#..", "#...", "...."]
     tools.undo()
-    tools.slopes = True
+    tools.brush.slopes = True
     drag(tools, *ends)
     assert picture(tools, range(2, 6), range(4, 9)) == ["...s", "..sq", ".sq.", "sq..", "q..."]
     tools.undo()
@@ -467,7 +467,7 @@ def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorT
 
 
 def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> None:
-    tools.slopes, tools.tool = True, "ellipse"
+    tools.brush.slopes, tools.tool = True, "ellipse"
     drag(tools, (60, 60), (324, 324))
     upper = ["...fF##Dd...", "..s######a..", ".s########a.", "h##########g", "H##########G", "############"]
     assert picture(tools, range(2, 14), range(2, 8)) == upper
@@ -576,7 +576,7 @@ def test_a_chosen_side_of_a_door_wins_over_the_pointer(tools: EditorTools) -> No
 
 
 def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None:
-    tools.slopes = True
+    tools.brush.slopes = True
     drag(tools, (372, 564), (756, 564))
     tools.move(468, 540)
     shown = tools.preview
@@ -585,7 +585,7 @@ def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None
     assert shown == {cell: tools.draft.tile(cell) for cell in changed_cells(before, tools.draft)}
     tools.move(492, 540)
     assert tools.preview == {(19, 22): TILE_CHARS.index("s"), (20, 22): TILE_CHARS.index("a")}
-    tools.slopes = False
+    tools.brush.slopes = False
     assert tools.preview == {(20, 22): 1}
 
 
@@ -638,7 +638,7 @@ def test_a_paste_is_exact_also_where_slopes_set_themselves(tools: EditorTools) -
     slope, half = TILE_CHARS.index("s"), FAMILIES[4].tiles[3]
     row = {(5 + k, 20): tile for k, tile in enumerate((slope, 1, 1, half, 0))}
     tools.history.change(tools.draft.with_tiles({(column, 12): 1 for column in range(5, 20)} | row))
-    tools.slopes, tools.selection = True, Selection((5, 20, 5, 1))
+    tools.brush.slopes, tools.selection = True, Selection((5, 20, 5, 1))
     tools.copy()
     tools.paste()
     drag(tools, (24 * 11 + 12.0, 24 * 11 + 12.0))
@@ -734,6 +734,6 @@ def test_a_fill_shows_what_it_would_fill_and_a_frame_how_large_it_is(tools: Edit
     drawn = tools.frame_size
     tools.release()
     assert (drawn, tools.frame_size) == ((4, 2), None)
-    tools.tool, tools.tile = "fill", 6
+    tools.tool, tools.brush.tile = "fill", 6
     tools.move(36, 36)
     assert tools.preview == dict.fromkeys([(column, row) for column in (1, 2, 3, 4) for row in (1, 2)], 6)

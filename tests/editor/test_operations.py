@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from ninja_game.document import History
-from ninja_game.editor.brush import object_of_type, placed
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
+from ninja_game.editor.palette import object_of_type, placed, remade
 from ninja_game.editor.specs import PROPERTIES, carried, object_type_name, points, properties, settled, with_word, word
 from ninja_game.editor.stamp import (
     Selection,
@@ -26,7 +26,6 @@ from ninja_game.editor.stamp import (
     turning_centre,
     with_stamp,
 )
-from ninja_game.editor.tools import remade
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
 from ninja_game.sim.collision import tiles as shapes
 from ninja_game.sim.kinds import DOOR, NINJA

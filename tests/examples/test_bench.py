@@ -91,7 +91,7 @@ def test_scores_are_0_by_chance_and_1_if_all_is_passed() -> None:
     assert normalised(passed, chance).round(9).tolist() == [0, 1, 0.25]
 
 
-def test_levels_are_drawn_again_where_a_file_tells_of_each() -> None:
+def test_levels_are_drawn_again_where_a_file_lists_them_all() -> None:
     """Of a run with one level in two passed: by 334 levels alone the share is known to some five points."""
     rows = " ".join("01"[n // 3 % 2] for n in range(1000))
     every = {"levels": {"bench:test": {"passed": rows}}}

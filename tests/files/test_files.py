@@ -314,7 +314,7 @@ def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkey
     for extra in ("fast", "cluster", "plots", "film", "learn", "minari", "train"):
         hint = runtime.install_hint(extra).removeprefix(install)
         assert hint
-        assert "ninja-game" not in hint, "nobody knows whether it can be had there"
+        assert "ninja-game" not in hint, "it may be missing there"
 
     def refuse(name: str) -> None:
         raise PackageNotFoundError(name)

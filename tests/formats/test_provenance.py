@@ -78,7 +78,7 @@ def test_too_many_co_authors_are_reported() -> None:
 @given(MADE, st.lists(NAMES.filter(bool), max_size=3, unique=True).map(tuple), st.text(max_size=20))
 def test_comments_of_n_hold_it(made: Provenance, names: tuple[str, ...], comment: str) -> None:
     held = with_provenance(comment.strip(), made, names)
-    # A comment of the maker's own that reads as such a mark cannot be told from one, nor can names with its signs.
+    # A comment of the maker's own that reads as such a mark looks like one, and so do names with its signs.
     assume("]" not in f"{made}{names}" and ";" not in f"{made}" and "[made" not in comment)
     assert without_provenance(held) == (comment.strip(), made, names)
 

@@ -182,7 +182,7 @@ def test_a_replay_that_says_no_level_takes_the_given_one() -> None:
     assert parse_replay(TEXT, level=LEVEL).level is None
 
 
-def test_a_replay_is_told_by_its_first_words() -> None:
+def test_a_replay_is_recognised_by_its_first_words() -> None:
     assert is_replay("\ufeff" + TEXT)
     assert not is_replay("ninja-game level 1")
 

@@ -55,7 +55,7 @@ def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monk
 
 
 def test_the_first_agent_is_one_that_was_measured() -> None:
-    """What ten minutes bring is told of all seeds that were tried, as their results have it."""
+    """The table of ten minutes has the results of all seeds that were tried."""
     runs = bench_report.load_results(Path(__file__).resolve().parents[2] / "benchmarks" / "results" / "ninjabench")
     first, random = runs["sight", "ppo-1M"], runs["sight", "random"]
     learned = {run["training"]["level"] for run in first}

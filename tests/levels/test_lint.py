@@ -52,6 +52,8 @@ CASES: dict[str, tuple[list[str], dict[int, str]]] = {
     "two pieces of gold in one place": (["gold 5,5 6,5 5,5"], {5: "....oo"}),
     "a line twice": (["launch pad 5,5.25 up"] * 4, {}),
     "gold behind walls": ([], {1: "o#", 2: "##"}),
+    "what does nothing untouched, behind walls": (["mine 134,36px"], {1: "^#B#8#", 2: "######"}),
+    "what does nothing untouched, but is touched": ([], {1: ".#.#", 2: "#^#B#.8", 3: ".#.#"}),
     "pad with a long normal": (["launch pad 5.5,5 normal 0,-2"], {}),
     "one-way with an odd direction": (["raw 7 132,132,4"], {}),
     "thwump with an odd direction": (["raw 8 132,132,nan"], {}),

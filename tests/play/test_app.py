@@ -226,7 +226,7 @@ def test_names_of_exports_are_free_short_and_plain(tmp_path: Path) -> None:
     assert export_path(tmp_path, "../..", ".gif").parent == tmp_path / "exports"
 
 
-def test_unknown_palette_is_told_of_and_the_game_starts(tmp_path: Path) -> None:
+def test_unknown_palette_is_reported_and_the_game_starts(tmp_path: Path) -> None:
     (tmp_path / "settings.toml").write_text('[look]\npalette = "drak"\n')
     driver = MenuDriver(tmp_path)
     assert driver.app.theme.palette.base.name == "morning"

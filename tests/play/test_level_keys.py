@@ -16,7 +16,8 @@ from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import DEATH_PAUSE, LATE_JUMP, Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menu_screen import Menu
-from ninja_game.player.playthrough import EpisodePlaythrough, FilePlaythrough
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
+from ninja_game.player.playthrough import FilePlaythrough
 from ninja_game.ui.input.bindings import ACTIONS
 from tests.support.scripted import (
     ScriptedControls,

@@ -146,7 +146,7 @@ def test_tiles_are_never_taken_for_scenery(palette: Palette, sight: str) -> None
 
 @moods
 def test_text_can_be_read_on_the_scenery(palette: Palette) -> None:
-    """WCAG's contrast ratio: 4.5 for text, 3 for what is said beside it."""
+    """WCAG's contrast ratio: 4.5 for text, 3 for secondary text."""
     for role, least in (("text", 6.0), ("faint", 3.0)):
         colours = np.concatenate([np.array([getattr(palette, role)[:3]], np.float64), plain_ground(palette)])
         light = (seen(colours, "normal")[:, 0] + 16) / 116

@@ -11,7 +11,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.editor.commands import NOTHING_BEGUN, TryScreen
+from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.main_menu import MainMenu
@@ -169,7 +169,7 @@ def test_each_screen_asks_for_its_music() -> None:
         play_level(app, replace(entry, episode=""))
         assert app.top.music in COLUMN_MUSIC
         app.pop()
-        app.push(TryScreen(app, EditorSession(app), entry.named.level, "", None, NOTHING_BEGUN))
+        app.push(PlaytestScreen(EditorSession(app), entry.named.level))
         assert app.top.music == SILENCE
         app.pop()
         play_level(app, entry, practice=True)

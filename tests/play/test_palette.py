@@ -1,4 +1,4 @@
-"""Every palette can be read, and in the safe ones danger can be told without colour."""
+"""Every palette can be read, and the safe ones show danger without colour too."""
 
 from __future__ import annotations
 

@@ -409,7 +409,7 @@ def test_film_that_cannot_be_saved_is_reported() -> None:
         press("export")
         frames(app, 1, 0)
         if screen.export:
-            # It may have failed already, and been told of, within that frame.
+            # It may have failed already, and been reported, within that frame.
             screen.export._thread.join(60)
             frames(app, 1, 0)
         assert app.notice == "No film: File exists"

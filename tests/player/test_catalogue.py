@@ -10,8 +10,8 @@ from ninja_game.files.bundled import bundled_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.pack.pack import certificate_name
 from ninja_game.player.catalogue import Catalogue
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodePlaythrough
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from tests.support.own_pack import PACK
 from tests.support.players import played, short_level

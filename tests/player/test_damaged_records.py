@@ -14,8 +14,9 @@ from pathlib import Path
 import pytest
 
 from ninja_game.formats.run_time import seconds_text
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import keep_replay
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from ninja_game.player.records import Records
 from ninja_game.player.schema import open_database

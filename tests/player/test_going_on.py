@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from ninja_game.levels.episodes import Episode
+from ninja_game.player.episode_playthrough import EpisodePlaythrough, next_run
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation, next_run
+from ninja_game.player.playthrough import LevelPlaythrough, Navigation
 from ninja_game.player.progress import HELPED
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME

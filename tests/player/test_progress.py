@@ -7,8 +7,9 @@ from unittest.mock import patch
 
 import pytest
 
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import EPISODE_BEST, NEW_BEST
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation
+from ninja_game.player.playthrough import LevelPlaythrough, Navigation
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, PackProgress, complete_columns, new_unlocks
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import SELF

@@ -14,8 +14,9 @@ from ninja_game.files.user_folder import RECORDS, SETTINGS
 from ninja_game.formats.replay.provenance import Provenance
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import schema
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import PlayerData, keep_replay, save_work
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.schema import SCHEMA_VERSION
 from ninja_game.player.store import Store

@@ -81,7 +81,7 @@ def test_a_save_state_fits_every_equal_level_and_no_other(memory: str) -> None:
 @pytest.mark.parametrize("memory", BOTH)
 def test_both_memories_show_tiles_objects_and_events_alike(memory: str) -> None:
     run = Simulation(LEVEL, memory=memory)
-    assert run.tiles.tiles.count(1) == 33 * 25 - 31 * 23
+    assert run.tiles.ids.count(1) == 33 * 25 - 31 * 23
     while not run.gold:
         run.step(right=True)
     assert [(event.name, event.object_id) for event in run.events] == [("gold-taken", 1)]

@@ -181,7 +181,7 @@ def _zip_of(folder: Path, member: bytes, **about: int) -> Path:
 
 
 def _header(shape: str) -> bytes:
-    """A .npy that says it holds so many doubles."""
+    """A .npy that says it holds this many doubles."""
     text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}".ljust(117) + "\n"
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode()
 

@@ -182,7 +182,7 @@ def test_an_unknown_object_is_named() -> None:
 
 
 def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> tuple[SpanResult, ...]:
-    """A search of so many reports, on the plain memory where none is asked for."""
+    """A search of this many reports, on the plain memory where none is asked for."""
     reports: list[int] = []
 
     def report(ticks: int, _: tuple[SpanResult, ...]) -> bool:

@@ -123,7 +123,7 @@ def test_a_front_keeps_the_earliest_moments_and_one_of_each_state_of_the_enemies
 def test_doors_are_opened_one_by_one_also_when_the_exit_is_open() -> None:
     """The exit's switch is beside the ninja, the door's at the left end, the exit behind the door at the right."""
     start = open_start(KEY_AT_THE_LEFT, box=False)
-    heuristics = Heuristics(start.levels, start.worlds)
+    heuristics = Heuristics(start.maps, start.worlds)
     assert [heuristics.may_leave(mask, 130.0, 566.0) for mask in (0, 1, 2, 3)] == [False, False, False, True]
     route = Route(Search(start, heuristics, nodes=50_000), gold=0, seed=1)
     runs = [route.step(lambda _: False) for _ in range(4)]
@@ -133,14 +133,14 @@ def test_doors_are_opened_one_by_one_also_when_the_exit_is_open() -> None:
 
 def test_a_piece_from_which_no_way_leads_to_others_comes_last() -> None:
     start = open_start(ONE_WAY, box=False)
-    route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=3, seed=1)
+    route = Route(Search(start, Heuristics(start.maps, start.worlds), nodes=50_000), gold=3, seed=1)
     route.urgency[1] = 1.0
     assert route._target(next(iter(route.frontiers.values()))) == 0
 
 
 def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
     start = open_start(TWO_KEYS, box=False)
-    heuristics = Heuristics(start.levels, start.worlds)
+    heuristics = Heuristics(start.maps, start.worlds)
     far = next(1 << bit for bit, switch in enumerate(heuristics.switches) if switch.switch_x == 500.0)
     search = Search(start, heuristics, nodes=50_000)
     root = search.checkpoint(None, b"")
@@ -160,7 +160,7 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
 
 def test_a_frontier_is_searched_finer_and_finer(monkeypatch: pytest.MonkeyPatch) -> None:
     start = open_start(PIT, box=False)
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=50_000)
     begun: list[Resolution] = []
     monkeypatch.setattr(search, "begin_leg", lambda _, resolution, **__: begun.append(resolution))
     monkeypatch.setattr(search, "run_leg", lambda *_, **__: None)
@@ -175,7 +175,7 @@ def test_a_frontier_is_searched_finer_and_finer(monkeypatch: pytest.MonkeyPatch)
 def test_the_exit_is_opened_last() -> None:
     """A frontier with an open exit to which there is no way is searched later than the one with a closed exit."""
     start = open_start(KEY_AT_THE_RIGHT, box=False)
-    route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=0, seed=1)
+    route = Route(Search(start, Heuristics(start.maps, start.worlds), nodes=50_000), gold=0, seed=1)
     for _ in range(2):
         assert not route.step(lambda _: False)
     assert [route.frontiers[0, mask].tries for mask in (0, 1)] == [2, 0]
@@ -249,7 +249,7 @@ def test_what_keeps_a_run_from_the_exit_is_reported(rows: dict[int, str], lines:
 
 def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:
     start = open_start(BEHIND_A_DOOR, box=False)
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=50_000)
     route = Route(search, gold=0, seed=1)
     runs = [route.step(lambda _: False) for _ in range(8)]
     assert verified_run(BEHIND_A_DOOR, next(filter(None, runs))).end_tick > 0
@@ -267,7 +267,7 @@ def first() -> Replay:
 def beam_of(first: Replay) -> GoldBeam:
     """A beam search from a run of LINES."""
     start = open_start(LINES, box=False)
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=50_000)
     return GoldBeam(search, first.inputs, seed=1)
 
 
@@ -316,7 +316,7 @@ def test_a_search_forgets_those_before_it() -> None:
         search.run(30_000)
         return search.best(), search.ticks, int(search.counters.entries)
 
-    new, used = (Search(start, Heuristics(start.levels, start.worlds), nodes=50_000) for _ in range(2))
+    new, used = (Search(start, Heuristics(start.maps, start.worlds), nodes=50_000) for _ in range(2))
     for search in (new, used):
         searched(search, 1)  # makes the fields
     for seed in (4, 5):
@@ -334,7 +334,7 @@ def lines_of_searches(first: Replay) -> Iterator[str]:
         return f"{search.ticks} ticks, {counters.entries} entries, run of {len(best)}: {crc32(best):08x}"
 
     start = open_start(LINES, box=False)
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=50_000)
     for number, resolution in enumerate((*(one for one, _ in FIRST_RUN_SEARCHES), *OTHER_ROUTES)):
         search.begin(resolution, seed=1, bound=0, backed_up=number > 0)
         search.run(60_000)
@@ -342,7 +342,7 @@ def lines_of_searches(first: Replay) -> Iterator[str]:
     for name, level in (("lines", LINES), ("pit", PIT), ("one-way", ONE_WAY), ("two keys", TWO_KEYS)):
         start = open_start(level, box=False)
         for gold in {0, level.gold}:
-            search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+            search = Search(start, Heuristics(start.maps, start.worlds), nodes=50_000)
             route = Route(search, gold=gold, seed=1)
             for number in range(5):
                 route.step(lambda _: False)

@@ -137,7 +137,7 @@ def test_a_rocket_is_led_where_it_must_be() -> None:
     require_reference()
     level = parse_level_string(next(row.data for row in levels() if row.label == "80-3"))
     start = open_start(level, box=False)
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=700_000)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=700_000)
     resolution, ticks = FIRST_RUN_SEARCHES[1]
     search.begin(resolution, seed=1, bound=0)
     while search.ticks < ticks and not search.best():

@@ -59,7 +59,7 @@ def heuristics_of(text: str) -> Heuristics:
     """The distance fields of a level."""
     level: Level = parse_level_string(text)
     start = open_start(level, box=False)
-    return Heuristics(start.levels, start.worlds)
+    return Heuristics(start.maps, start.worlds)
 
 
 @pytest.mark.parametrize(
@@ -185,7 +185,7 @@ def test_a_trial_run_ends_where_it_is_the_current_run_again() -> None:
 
     def ended(*, keys: int = 3, tick: int = 4, score: float = ticks - 0.5, words: int = 0) -> tuple[int, float]:
         memory = PlainWorlds([level], box=False)
-        plain = start._replace(levels=memory.maps, worlds=[None, memory.world()], scratch=np.full(3, words))
+        plain = start._replace(maps=memory.maps, worlds=[None, memory.world()], scratch=np.full(3, words))
         runs.counters[0].score = score
         runs.trial[:] = runs.current
         runs.trial[tick] = keys
@@ -215,7 +215,7 @@ def test_a_search_looks_at_the_clock_often_where_states_are_large() -> None:
     start = open_start(heavy_level(1_500), box=False)
     assert ticks_at_once(start) < 60_000
     assert ticks_at_once(open_start(heavy_level(300), box=False)) == 1_000_000
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=40_000)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=40_000)
     search.begin(Resolution(cell=2.0, speed=0.1, macro=6, weight=1.0), seed=1, bound=0)
     search.run(1_000_000)
     assert 0 < search.ticks < 100_000
@@ -264,7 +264,7 @@ def key_after(text: str, ticks: int, resolution: Resolution) -> int:
     """The key of the moment after this many ticks without keys; the ninja stands still."""
     level = parse_level_string(text)
     start = open_start(level, box=False)
-    goal = Search(start, Heuristics(start.levels, start.worlds), nodes=100).goal
+    goal = Search(start, Heuristics(start.maps, start.worlds), nodes=100).goal
     memory = PlainWorlds([level], box=False)
     for _ in range(ticks):
         memory.step(0)
@@ -313,7 +313,7 @@ def test_states_that_differ_in_a_tenth_switch_are_told_apart() -> None:
     doors = "!".join(f"9^{100 + 24 * k},566,0,1,{3 + k},1,0,0,0" for k in range(12))
     level = parse_level_string(OPEN + f"5^60,566!11^700,566,600,566!{doors}")
     start = open_start(level, box=False)
-    search = Search(start, Heuristics(start.levels, start.worlds), nodes=100, along=True)
+    search = Search(start, Heuristics(start.maps, start.worlds), nodes=100, along=True)
     memory = PlainWorlds([level], box=False)
     states_of: dict[int, set[int]] = {}
     for _ in range(150):

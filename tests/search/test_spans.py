@@ -37,7 +37,7 @@ FINENESS = SpanSettings(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0
 
 def searches(inputs: bytes = STANDING, *, gold: int = 0, level: Level = LEVEL) -> SpanSearches:
     start = open_start(level, box=False)
-    made = SpanSearches(start, Heuristics(start.levels, start.worlds), gold=gold)
+    made = SpanSearches(start, Heuristics(start.maps, start.worlds), gold=gold)
     made.follow(verified_run(level, inputs).inputs)
     return made
 
@@ -122,7 +122,7 @@ def test_the_shortener_submits_ever_shorter_runs_with_their_gold(gold: int) -> N
         spent += int(cost)
         return spent > 3_000_000
 
-    heuristics = Heuristics(start.levels, start.worlds)
+    heuristics = Heuristics(start.maps, start.worlds)
     shortener = RunShortener(start, heuristics, gold=gold, seed=1, submit=submitted.append, spend=spend)
     best = shortener.search_spans(verified_run(LEVEL, STANDING).inputs, 2_000_000)
     assert len(best) == len(submitted[-1])

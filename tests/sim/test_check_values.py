@@ -40,9 +40,9 @@ CIRCLES = [
 
 @pytest.mark.parametrize("tile, start, end", CIRCLES)
 def test_circle_ends_where_the_page_says(tile: int, start: tuple[float, float], end: tuple[float, float]) -> None:
-    level, w = world_with(tile, 100, 100)
+    tiles, w = world_with(tile, 100, 100)
     w.ninja.x, w.ninja.y = start
-    collide_circle(level, w)
+    collide_circle(tiles, w)
     assert (w.ninja.x, w.ninja.y) == end
 
 
@@ -58,9 +58,9 @@ def test_box_ends_where_the_page_says(
     tile: int, half: float, start: tuple[float, float], end: tuple[float, float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("ninja_game.sim.collision.box.BOX_HALF", half)
-    level, w = world_with(tile, 100, 100)
+    tiles, w = world_with(tile, 100, 100)
     w.ninja.x, w.ninja.y = start
-    collide_box(level, w)
+    collide_box(tiles, w)
     assert (w.ninja.x, w.ninja.y) == end
 
 
@@ -80,21 +80,21 @@ RAYS = [
 def test_ray_stops_where_the_page_says(
     start: tuple[int, int], through: tuple[int, int], tile: int, stop: tuple[float, float]
 ) -> None:
-    level, w = world_with(tile, 50, 50)
-    assert ray_tiles(level, w, *start, *through) == (True, *stop)
+    tiles, w = world_with(tile, 50, 50)
+    assert ray_tiles(tiles, w, *start, *through) == (True, *stop)
 
 
 @pytest.mark.parametrize(
     "ninja, answer", [((180.5, 231.2), (True, 171.02582457413837, 228.0)), ((380.5, 231.2), (False, 240.0, 228.0))]
 )
 def test_sight_is_blocked_by_what_is_nearer(ninja: tuple[float, float], answer: tuple[bool, float, float]) -> None:
-    level, w = world_with(1, *ninja)
-    assert sees(level, w, 100, 228, 400, 228) == answer
+    tiles, w = world_with(1, *ninja)
+    assert sees(tiles, w, 100, 228, 400, 228) == answer
 
 
 def test_a_ray_without_length_sees_nothing() -> None:
-    level, w = world_with(0, 50, 50)
-    assert not ray_tiles(level, w, 50, 50, 50, 50)[0]
+    tiles, w = world_with(0, 50, 50)
+    assert not ray_tiles(tiles, w, 50, 50, 50, 50)[0]
 
 
 def keys(*spans: tuple[int, int]) -> list[int]:

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from ninja_game.backend.plain import PlainWorlds
-from ninja_game.editor.brush import OBJECT_TYPES
+from ninja_game.editor.palette import OBJECT_TYPES
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations import objects
@@ -199,7 +199,7 @@ def test_who_never_sleeps_costs_more_work_than_others() -> None:
     assert {kind.number for kind in KINDS if kind.cost > 1} == set(kinds.ENEMIES)
 
 
-def test_the_field_that_tells_of_use_is_one_of_the_kind_s() -> None:
+def test_the_field_that_shows_use_is_one_of_the_kind_s() -> None:
     assert all(kind.used in inspect.get_annotations(kind.fields) for kind in KINDS if kind.used)
 
 

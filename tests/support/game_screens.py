@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ninja_game import __version__
 from ninja_game.editor.files import Source, draft_of
-from ninja_game.editor.playtests import TestMap
+from ninja_game.editor.playtests import PlaytestMap
 from ninja_game.editor.solver import Certification
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.files.bundled import CHECKOUT, bundled_replays
@@ -93,7 +93,7 @@ def always_alike() -> list[object]:
     return [
         instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE),
         patch("ninja_game.runtime.run_in_background", lambda work, _: work()),
-        patch("ninja_game.play.editor.session.CHECK_SPACING", 0.0),
+        patch("ninja_game.editor.examination.SPACING", 0.0),
     ]  # fmt: skip
 
 
@@ -284,7 +284,7 @@ def _settings(driver: MenuDriver) -> Iterator[str]:
 
 
 def _help(driver: MenuDriver) -> Iterator[str]:
-    """Every page, when what it tells of has just happened."""
+    """Every page, at the moment when its subject has just happened."""
     screen = driver.opened("Help", HelpScreen)
     for index, topic in enumerate(screen.topics):
         screen.list.select(index)
@@ -350,7 +350,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
 
 
 def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
-    """Four messages, as many as a level has, and where two of them are said."""
+    """Four messages, all that a level has, and where two of them are shown."""
     messages = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
     tools = screen.session.tools
     tools.history.change(replace(tools.draft, says=messages))
@@ -370,11 +370,11 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.frames(2)
     for name, tile in (("tiles", True), ("objects", False)):
         for symmetry in ("left-right", "both"):
-            screen.session.tools.symmetry = symmetry
+            screen.session.tools.brush.symmetry = symmetry
             screen.session.tools.pick_up(8 if tile else ObjectSpec(GOLD, (0.0, 0.0)))
             driver.mouse(200, 160, click=False)
             yield f"editor-symmetry-{symmetry}-{name}"
-    screen.session.tools.symmetry = "off"
+    screen.session.tools.brush.symmetry = "off"
     certifier = screen.session.certifier
     yield "editor-not-certified"
     run = replace(load_replays(bundled_replays()[0])[0].replay, final_tick=156, gold=0)
@@ -389,9 +389,9 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.frames(12)
     yield "editor-test"
     driver.press("escape")
-    screen.session.tried(screen.session.draft.level, bytes(3), over=True)
-    screen.session._maps.finish()
-    screen.session._maps.result = TestMap({(2, 22): 2, (3, 22): 1}, ((108.0, 540.0), (132.0, 540.0)))
+    screen.session.add_playtest(screen.session.draft.level, bytes(3), over=True)
+    screen.session.playtests.maps.finish()
+    screen.session.playtests.maps.result = PlaytestMap({(2, 22): 2, (3, 22): 1}, ((108.0, 540.0), (132.0, 540.0)))
     driver.press("f9")
     yield "editor-tests"
     driver.press("f9", "f3")

@@ -10,6 +10,6 @@ START = 396.0, 566.0
 
 
 def heavy_level(blocks: int = CAPACITY - 2) -> Level:
-    """A ninja that touches so many bounce blocks at once: all of them stay awake."""
+    """A ninja that touches this many bounce blocks at once: all of them stay awake."""
     block = ObjectSpec(BOUNCE_BLOCK, (START[0] + 19.5, START[1]))
     return Level((0,) * TILES, (ObjectSpec(NINJA, START), *[block] * blocks))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.examination import Question
 from ninja_game.editor.files import new_source
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.play.editor.screen import EditorScreen
@@ -26,8 +27,8 @@ ROOM = with_stamp(
 
 def examine(editor: EditorScreen) -> None:
     """Have the level's problems found now."""
-    editor.session._checks.ask((editor.session.draft.level, (), editor.session.draft.says, b""))
-    editor.session._checks.finish()
+    editor.session.examination.job.ask(Question(editor.session.draft.level, (), editor.session.draft.says, b""))
+    editor.session.examination.job.finish()
 
 
 class Maker(MenuDriver):

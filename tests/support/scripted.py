@@ -64,7 +64,7 @@ def release(*actions: str) -> None:
 
 
 def frames(app: App, count: int = 1, ms: int = 25) -> None:
-    """Some pictures, each so many ms after the one before."""
+    """Some pictures, each this many ms after the one before."""
     for _ in range(count):
         app.frame(ms)
 

@@ -1,4 +1,4 @@
-"""Run a command and stop a copy of its process at every so many function calls, from its first line to its last.
+"""Run a command and stop a copy of its process at every this many function calls, from its first line to its last.
 
     python -m tests.support.stopped_everywhere SIGTERM EVERY WORD ...
 

@@ -45,7 +45,7 @@ def make_work(folder: Path) -> Path:
 
 
 def ended(words: str, number: signal.Signals, after: float, folder: Path) -> tuple[int, list[str]]:
-    """Exit code, and what is left, of a command that gets a signal so many seconds after it listens to signals.
+    """Exit code, and what is left, of a command that gets a signal ``after`` seconds after it listens to signals.
 
     It must end within PATIENCE. What it writes for a while goes into the folder ``out``.
     """

@@ -32,7 +32,7 @@ def test_the_trial_sees_what_is_lost(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "noted, edits, wrong",
     [
-        ("ABCBA", "ABCB", []),  # killed before the last undo was said
+        ("ABCBA", "ABCB", []),  # killed before the last undo was reported
         ("A", "ABCD", ["3 edits lost"]),
         ("ABC", "ABCD", []),
         ("AE", "ABCD", ["3 edits lost"]),  # what was not said is no excuse

@@ -42,7 +42,7 @@ def test_figures_count_what_their_names_say() -> None:
     }  # fmt: skip
 
 
-def test_variants_are_told_by_the_words_of_the_level_format() -> None:
+def test_variants_are_named_by_the_words_of_the_level_format() -> None:
     seen = set().union(*map(variants, level({}).objects))
     assert seen == {
         "ninja", "exit", "gold", "mine", "zap drone", "zap drone seeker", "drone random", "locked door flat",

@@ -159,7 +159,7 @@ def test_a_batch_is_one_row_of_the_first_page(
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     for most, rows, noted in ((2, 2, False), (1, 1, True)):
-        monkeypatch.setattr("ninja_game.web.board.pages.MAX_OF_A_MOMENT", most)
+        monkeypatch.setattr("ninja_game.web.board.first_page.MAX_OF_A_MOMENT", most)
         index = (board_of(runs, levels, tmp_path / f"{most}") / "index.html").read_text("utf-8")
         newest = index.partition("<h2>Newest records")[2].partition("</tbody>")[0]
         count = newest.partition("</ul>")[0].count("<li ") if not noted else newest.count("<tr>") - 1

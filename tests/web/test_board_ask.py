@@ -212,7 +212,7 @@ def test_a_board_remembers_its_ledger(runs: Path, levels: Path, tmp_path: Path) 
     put(runs, "z.txt", replay(author="Zed"))
     words = ["board", "ask", str(runs), "rank", "Walk", "--jobs", "1"]
     result = CliRunner().invoke(cli, [*words, "--levels", str(levels)])
-    assert "no ledger: copies are told by the names of files" in result.stderr
+    assert "no ledger: of two equal runs the first by file name is the original" in result.stderr
     taken_in_earlier(runs, levels, tmp_path / "board.json")
     put(runs, "a.txt", replay(author="Thief"))
     for more in ([], ["--again"], ["--site", str(tmp_path / "site")]):

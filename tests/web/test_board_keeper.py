@@ -204,7 +204,7 @@ def test_a_batch_is_one_entry_of_the_feed(
     put(runs, "a.txt", slow_walk(author="Ann"))
     put(runs, "b.txt", replay(author="Bot", made=Provenance(edits=7)))
     for most, entries in ((2, 2), (1, 1)):
-        monkeypatch.setattr("ninja_game.web.board.pages.MAX_OF_A_MOMENT", most)
+        monkeypatch.setattr("ninja_game.web.board.first_page.MAX_OF_A_MOMENT", most)
         board(runs, levels, "--json", str(tmp_path / "board.json"), "--site", str(tmp_path / "site"))
         feed = (tmp_path / "site" / "board" / "feed.xml").read_text("utf-8")
         assert feed.count("<entry>") == entries

@@ -13,7 +13,7 @@ from tests.support.page_digests import digests
 from tests.support.page_runs import Run, digests_in_node, digests_in_page, page_runs
 from tests.support.web_page import PYODIDE
 
-EVERY = int(os.environ.get("EVERY", "17"))  # the sample: every so many runs one
+EVERY = int(os.environ.get("EVERY", "17"))  # the sample: every this many runs one
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,6 @@
 """Draw the pictures of docs/ that show screens of the program: `python3 tools/dev.py docs`.
 
-Those of docs/good-levels.md too, and what is said about them there.
+Those of docs/good-levels.md too, and the text about them there.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def editor_picture(folder: Path) -> pygame.Surface:
     editor = maker.editor
     editor.session.begin(open_source(Path(copy(PACK / "00-4-locksmith.txt", folder / "levels"))))
     run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
-    editor.session.tried(run.level, run.inputs, over=False)
+    editor.session.add_playtest(run.level, run.inputs, over=False)
     maker.frames()
     maker.press("shift+z")
     maker.mouse(*maker.at(132, 204))

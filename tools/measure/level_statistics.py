@@ -32,7 +32,7 @@ from tools import ROOT
 SHAPES = range(2, 34)  # ids of the tiles that are neither empty nor full
 MOTIF = 5, 3  # columns and rows of a motif
 MOTIF_SHAPES = 3
-"""A motif has at least so many cells with a shape, not all of one straight slope: nobody copies a slope."""
+"""A motif has at least this many cells with a shape, not all of one straight slope: nobody copies a slope."""
 STRAIGHT = {2: "45°", 14: "22°", 18: "22°", 22: "67°", 26: "67°"}
 """First ids of the families of slopes, each with three more that are turned; both ends make one slope."""
 

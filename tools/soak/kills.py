@@ -274,7 +274,7 @@ class Track:
         await_locks(folder)
         session = opened_run(folder)
         self.last = digest_of_track(session.track)
-        # The last edit may not have been said, and lead back to a run that was said long before, as undo does.
+        # The last edit may not have been reported, and lead back to a run that was reported long before, as undo does.
         session.history.undo()
         before = digest_of_track(session.track)
         session.history.redo()
@@ -323,7 +323,7 @@ def live(what: str, folder: Path, seed: int, pipe: Connection) -> NoReturn:
 
 
 def life(what: str, folder: Path, seed: int, words: int, seconds: float) -> list[Fact]:
-    """Let a child live until it has said so many words and for some seconds more, kill it; all that it said."""
+    """Let a child live until it has printed this many words and for some seconds more, kill it; all that it printed."""
     methods = multiprocessing.get_all_start_methods()
     context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
     ours, theirs = context.Pipe(duplex=False)
@@ -348,7 +348,7 @@ def life(what: str, folder: Path, seed: int, words: int, seconds: float) -> list
 def kill_test(
     kills: int, seed: int, folder: Path, *, what: str = "records", report: bool = False
 ) -> tuple[int, list[str]]:
-    """Kill so many children; how many saves and edits they had told of, and everything that is wrong."""
+    """Kill this many children; how many saves and edits they had reported, and everything that is wrong."""
     rng, trial = Random(seed), TRIALS[what]
     reported = 0
     wrong: list[str] = []

@@ -56,8 +56,7 @@ PAD_NORMALS = {
 }
 """Normal of a launch pad for each direction word."""
 
-PAD_DIGITS = {"up": "8", "up-right": "9", "right": "6", "down-right": "3",
-              "down": "2", "down-left": "1", "left": "4", "up-left": "7"}  # fmt: skip
+PAD_DIGITS = dict(zip(PAD_NORMALS, "89632147", strict=True))
 """A pad is drawn as the digit in its direction on the numeric keypad."""
 
 

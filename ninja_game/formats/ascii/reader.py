@@ -23,8 +23,8 @@ class AsciiLevel:
     author: str
     comment: str
     level: Level
-    teaches: str = ""  #: what the level teaches
-    says: str = ""  #: its messages, as the header writes them
+    teaches: str = ""  #: the header ``teaches``: the lesson of the level
+    says: str = ""  #: the header ``says``: its messages
 
 
 def is_ascii_level(text: str) -> bool:

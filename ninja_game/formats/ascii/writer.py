@@ -226,9 +226,9 @@ def best_form(spec: ObjectSpec) -> tuple[str, str, str]:
         word = _word(DIRECTION_WORDS, values[2])
         return (keyword if word else ""), place_text(x, y), word
     if kind == kinds.DRONE:
-        move, direction, keyword = (
-            _word(MOVEMENTS, values[2]), _word(DIRECTION_WORDS, values[5]), _word(WEAPONS, values[4])
-        )  # fmt: skip
+        move = _word(MOVEMENTS, values[2])
+        direction = _word(DIRECTION_WORDS, values[5])
+        keyword = _word(WEAPONS, values[4])
         words = f"{move} {direction}{' seeker' if values[3] == 1 else ''}"
         return (keyword if move and direction else ""), place_text(x, y), words
     return keyword, place_text(x, y), ""

@@ -40,8 +40,7 @@ class LevelRecord:
     """One record of a level file or replay text.
 
     ``level``: the in-game string, wrapped lines joined, '' if the record omits it; ``demo``: the demo text, or '';
-    ``note``: a text in the place of the demo that is not one; ``number``: of the record, from 0; ``line`` (from 1):
-    where it starts.
+    ``note``: a text in the place of the demo that is not one; ``number``: from 0; ``line``: its first one, from 1.
     """
 
     name: str

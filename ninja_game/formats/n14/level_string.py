@@ -1,4 +1,4 @@
-"""The in-game level string ``<tiles>|<objects>``, read exactly as the game reads it (game.md §5.1-§5.3)."""
+"""N's level string ``<tiles>|<objects>``, read exactly as N reads it (game.md §5.1-§5.3)."""
 
 from __future__ import annotations
 
@@ -81,8 +81,7 @@ def write_level_string(level: Level, *, exact: bool = False) -> str:
     ``exact``: write numbers with as many digits as the same float64 needs, instead of the game's 15 digits. Levels read
     from texts with at most 15 digits per number are the same either way.
 
-    Raises LevelError for a level that no such string can describe: a tile id without a character, a stray separator in
-    an ignored record.
+    Raises LevelError for a tile id without a character, and for a stray separator in an ignored record.
     """
     number = format_exact if exact else format_number
     text = _write_tiles(level.tiles) + "|" + "!".join(_write_object(spec, number) for spec in level.objects)

@@ -97,7 +97,7 @@ class PackIndex:
 
     @property
     def byline(self) -> str:
-        """What the title has beside the name.
+        """The part of the title behind the name.
 
         >>> PackIndex("Walls", "Ann", "", (), (), "2").byline, PackIndex("Walls", "", "", (), (), "2").byline
         ('by Ann, 2', '2')

@@ -106,7 +106,8 @@ class PackFiles:
 
     def zipped(self) -> bytes:
         """The pack as a zip, the same bytes for the same files."""
-        data, folder = BytesIO(), self.path.resolve().name.removesuffix(".zip")
+        data = BytesIO()
+        folder = self.path.resolve().name.removesuffix(".zip")
         with ZipFile(data, "w", ZIP_DEFLATED) as file:
             for name in self.own_names:
                 entry = ZipInfo(f"{folder}/{name}")

@@ -25,7 +25,7 @@ MARGIN_GROWTH = 0.25
 DIFFICULTY_GRADES = {1.5: "easy", 4.0: "medium", 8.0: "hard", 15.0: "very hard", inf: "extreme"}
 """Words for difficulties below a number, for players."""
 
-_PAR_STEP = 4  # pars are rounded up to multiples of so many ticks: a tenth of a second
+_PAR_STEP = 4  # pars are rounded up to multiples of this many ticks: a tenth of a second
 
 DIGEST_DIGITS = 16  # digits of a digest in the table
 

@@ -1,4 +1,4 @@
-"""How a run was made, by the tools that made it: played, edited, searched (`docs/replay-format.md`)."""
+"""The provenance of a run: played, edited or searched, as the tools note it (`docs/replay-format.md`)."""
 
 from __future__ import annotations
 

@@ -42,9 +42,9 @@ class Replay:
 
     inputs: bytes  #: one byte per tick, the sum of its ``Input`` flags; after their end no key is down
     final_tick: int  #: the last tick that is run, from 0
-    outcome: str  #: of OUTCOMES, after the final tick; "": not claimed
+    outcome: str  #: the outcome after the final tick, one of OUTCOMES; "": not claimed
     gold: int = 0  #: pieces after the final tick
-    digest: str = ""  #: of what the world shows after the final tick, 64 hex digits, or ''
+    digest: str = ""  #: ``replay_digest`` of the world after the final tick, 64 hex digits; '': not claimed
     name: str = ""
     author: str = ""
     body: Body = "circle"
@@ -56,10 +56,10 @@ class Replay:
     level_name: str = ""
     level_author: str = ""
     waypoints: tuple[Waypoint, ...] = ()  #: places of the ninja, by tick; they show where a run takes another way
-    made: Provenance = UNKNOWN  #: how it was made, as written by the tools that made it
+    made: Provenance = UNKNOWN  #: the way it was made, as the tools wrote it
     markers: tuple[Marker, ...] = ()  #: names of ticks, in order
     demo_length: float | None = None  #: the length that N's demo claims, in frames; None: not a demo
-    co_authors: tuple[str, ...] = ()  #: who took part besides ``author``
+    co_authors: tuple[str, ...] = ()  #: people who took part besides ``author``
 
     @classmethod
     def of_inputs(cls, inputs: bytes, level: Level, **fields: Any) -> Self:
@@ -78,12 +78,12 @@ class Replay:
 
     @property
     def credit(self) -> str:
-        """Who made it, and how if not only by playing: ``Ann, Bob (edited, searched)``."""
+        """Its people, and the tools if it was not only played: ``Ann, Bob (edited, searched)``."""
         return " ".join(filter(None, (", ".join(filter(None, (self.author, *self.co_authors))), self.how)))
 
     @property
     def how(self) -> str:
-        """How it was made if not only by playing: ``(edited, searched)``."""
+        """The tools if it was not only played: ``(edited, searched)``."""
         made = self.made
         ways = (("assisted", made.assists), ("edited", made.edits), ("searched", made.searches))
         how = [way for way, used in ways if used]
@@ -128,8 +128,7 @@ def is_replay(text: str) -> bool:
 def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Replay:
     """Read a replay. ``level``: the level to use if the text names none.
 
-    Raises ReplayError with line and column for every deviation from `docs/replay-format.md`; LevelError for the level
-    inside.
+    Raises ReplayError, with the place, for deviations from docs/replay-format.md; LevelError for the level inside.
     """
     lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
     _check_first_line(lines, file)

@@ -158,6 +158,8 @@ def _base(number: int, mirrored: bool) -> _Base:
 
 
 class _Levels(Sequence[Level]):
+    """The levels of a split by their numbers, each made when it is read."""
+
     def __init__(self, split: str, numbers: range) -> None:
         self.split, self.numbers = split, numbers
 

@@ -81,7 +81,7 @@ class LevelSource:
 
 
 def word_like(word: str, words: Sequence[str]) -> str:
-    """For error messages: the known words most like an unknown one, else the first."""
+    """The known words most like an unknown one, else the first words; for error messages."""
     return ", ".join(get_close_matches(word, words, 3, 0.5) or words[:3])
 
 
@@ -149,8 +149,7 @@ class Curriculum(LevelSource):
     with more failures are chosen more often, in proportion to 1.1 - rate.
 
     ``difficulties``: one per level; None: those in the table of the game's levels (docs/making-levels.md). ``start``:
-    how many levels are open at first. Raises ArgumentError for anything but a source, and for a level without a known
-    difficulty.
+    number of levels open at first. Raises ArgumentError for anything but a source, and for an unknown difficulty.
     """
 
     def __init__(

@@ -121,9 +121,8 @@ class Part(ABC):
         """The kernel of the part, then its last arguments, which never change during an episode.
 
         ``kernel(maps, level_of, worlds, indices, first, last, out, offset, *tables)`` writes the values of the worlds
-        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Use numbers and arrays (of
-        records where values belong together), no named tuples: passing these takes 3 µs per call, half a step of one
-        world.
+        ``indices[first:last]`` into their rows of ``out``, from column ``offset`` on. Use numbers and arrays (also of
+        records), no named tuples: passing these takes 3 µs per call, half a step of one world.
         """
 
     @property
@@ -144,7 +143,7 @@ def clamp(value: float, low: float, high: float) -> float:
 
 
 class Range(NamedTuple):
-    """How a value is written: times a factor, then limited."""
+    """The scaling of a value: it is multiplied by a factor, then clamped."""
 
     factor: float
     lowest: float

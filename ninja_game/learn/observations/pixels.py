@@ -68,7 +68,7 @@ class DrawnObject(NamedTuple):
     slot: int
     size: float
     box: int  #: 1: a square, 0: a disc
-    shade: float  #: its grey, 0 to 255; normalised: 0 to 1
+    shade: float  #: the grey, 0 to 255; normalised: 0 to 1
     moves: int
     x: float
     y: float
@@ -77,8 +77,7 @@ class DrawnObject(NamedTuple):
 class Layers(NamedTuple):
     """Pictures without moving objects. ``changed`` (worlds): the picture must be redrawn; ``pictures``: one per world.
 
-    ``later``: the last object drawn in each cell of each level; ``movers``: numbers of the moving objects, in
-    ``bounds``.
+    ``later``: the last object drawn in each cell of each level; ``movers``, in ``bounds``: numbers of moving objects.
     """
 
     changed: Any
@@ -385,9 +384,11 @@ def area_of(o: Object, size: float, gap: float) -> tuple[float, float, float, fl
         dy = o.end_y - y
     reach = size + gap
     return (
-        x + clamp(dx, -_FAR, 0.0) - reach, x + clamp(dx, 0.0, _FAR) + reach,
-        y + clamp(dy, -_FAR, 0.0) - reach, y + clamp(dy, 0.0, _FAR) + reach,
-    )  # fmt: skip
+        x + clamp(dx, -_FAR, 0.0) - reach,
+        x + clamp(dx, 0.0, _FAR) + reach,
+        y + clamp(dy, -_FAR, 0.0) - reach,
+        y + clamp(dy, 0.0, _FAR) + reach,
+    )
 
 
 @fast
@@ -406,6 +407,8 @@ def cell_bounds(area: Any) -> tuple[int, int, int, int]:
     """First and last column and row of the cells that an area, px, touches."""
     left, right, top, bottom = area
     return (
-        int(clamp(left / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)), int(clamp(right / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
-        int(clamp(top / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)), int(clamp(bottom / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
-    )  # fmt: skip
+        int(clamp(left / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
+        int(clamp(right / HALF, 0.0, 2.0 * GRID_COLUMNS - 1.0)),
+        int(clamp(top / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
+        int(clamp(bottom / HALF, 0.0, 2.0 * GRID_ROWS - 1.0)),
+    )

@@ -80,8 +80,7 @@ def cached_by_tiles(
 def surface_distances(context: PartContext, number: int, reach: float) -> NDArray[np.float64]:
     """Distance of the centre of every cell (25, 33) from the nearest surface, px, at most ``reach``; inside below 0.
 
-    Outside the world all is solid. The search takes the nearest point of each row near a cell, and then the nearest of
-    these.
+    Outside the world all is solid. The search takes the nearest point of each row near a cell, then the nearest row's.
     """
     spacing = WORLD_WIDTH / GRID_COLUMNS / SAMPLES
     margin = int(reach / spacing)
@@ -262,7 +261,7 @@ def observe_rays(
     """Follow the rays of some worlds like ``cast_ray``, bit for bit, with fewer look-ups per line of the grid."""
     for k in range(first, last):
         index = indices[k]
-        tiles = maps[level_of[index]].tiles
+        ids = maps[level_of[index]].ids
         base = level_of[index] * EDGE_STATES
         w = worlds[index]
         x = w.ninja.x
@@ -280,7 +279,7 @@ def observe_rays(
             cell = start
             edge = 0
             t = 0.0
-            state = INTERESTING if tiles[start] else OFF
+            state = INTERESTING if ids[start] else OFF
             while True:
                 if state != OFF:
                     if state == DOORWAY:
@@ -289,7 +288,7 @@ def observe_rays(
                     hit_y = y + t * dy[j]
                     stopped = state == SOLID
                     if state == INTERESTING:
-                        tile = int(tiles[cell])
+                        tile = int(ids[cell])
                         stopped, hit_x, hit_y = ray_tile(
                             tile, CENTRE_X[cell], CENTRE_Y[cell], hit_x, hit_y, dx[j], dy[j]
                         )

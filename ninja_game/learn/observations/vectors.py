@@ -286,7 +286,8 @@ class Guide(Part):
         """The offsets of the points, px; the fields and the row of each world; factor and limit of the last value."""
         points = [(radius * x, radius * y, 1.0 / radius) for radius in _RADII for x, y in EIGHT_WAYS]
         columns = [context.table(column, np.float64) for column in zip(*points, strict=True)]
-        factor, highest = 1.0 / FAR_TICKS if self.normalised else 1.0, float(self.box.high[-1])
+        factor = 1.0 / FAR_TICKS if self.normalised else 1.0
+        highest = float(self.box.high[-1])
         return observe_guide, *columns, context.goal.fields, context.goal.rows, factor, highest
 
 

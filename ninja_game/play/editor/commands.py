@@ -7,10 +7,11 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft, change_text
+from ninja_game.editor.examination import UNREACHABLE_CODES
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
+from ninja_game.editor.palette import SNAPS
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
 from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
@@ -19,32 +20,29 @@ from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.messages import LevelMessage, parse_messages
-from ninja_game.formats.named_level import NamedLevel
-from ninja_game.levels.episodes import GAME, YOURS, Entry, Mood
+from ninja_game.formats.messages import parse_messages
+from ninja_game.levels.episodes import GAME, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.session import UNREACHABLE_CODES, EditorSession
+from ninja_game.play.editor.playtest import PlaytestScreen
+from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
 from ninja_game.play.editor.stamp_menu import StampMenu
 from ninja_game.play.editor.view import DOUBLE, EditorView
-from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
-from ninja_game.player.attempt import Attempt
-from ninja_game.player.playthrough import Navigation, PacedRun, Playthrough
 from ninja_game.runs.messages import heard
+from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.ui.audio.music import SILENCE
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import next_option
 
@@ -64,13 +62,9 @@ what is selected."""
 
 
 NAMELESS = "My level"  # the name of a level to which its maker gave none
-Begun = tuple[bytes, int]  # what a test begins with: ``lead`` and ``deaths`` of a Playthrough
+_IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "playtest", "certify"}
 
-NOTHING_BEGUN: Begun = b"", 0
-
-_IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "test", "certify"}
-
-IN_MORE = ("reach", "tests", "paths", "lines", "list", "slopes", "next_finding")
+IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")
 
 STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
 
@@ -83,9 +77,11 @@ _MIRRORS = {
 }
 """The symmetries, and what they do."""
 
-_AGAIN = "Esc again opens the File menu, where Leave is too"
-
 _UNDO = "Undo brings back what was here"
+
+
+def _shown(shown: bool) -> str:
+    return "shown" if shown else "hidden"
 
 
 class EditorCommands(DocumentCommands):
@@ -111,37 +107,35 @@ class EditorCommands(DocumentCommands):
 
     def _steps(self) -> dict[str, tuple[dict[str, Action], str]]:
         """The steps of the commands that go on to the next one, by their names, and the present step."""
-        tools, view, mirrors = self.session.tools, self.view, _MIRRORS
+        tools, view, brush, mirrors = self.session.tools, self.view, self.session.tools.brush, _MIRRORS
         return {
             "next_tool": ({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
             "takes": ({what: partial(tools.take, what) for what in TAKES}, tools.takes),
-            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[tools.symmetry]),
+            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[brush.symmetry]),
             "grid": ({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
-            "snap_next": ({snap: partial(setattr, tools, "snap", snap) for snap in SNAPS}, tools.snap),
+            "snap_next": ({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
         }
 
     def _table(self) -> dict[str, Action]:
         tools, view = self.session.tools, self.view
         return {
-            **{f"snap_{snap}": partial(setattr, tools, "snap", snap) for snap in SNAPS},
+            **{f"snap_{snap}": partial(self.snap, snap) for snap in SNAPS},
             "help": lambda: self.app.push(HelpPage(self.app, "The editor", _HELP, EDITOR_COMMANDS.commands)),
             "menu": self.menu, "file": self.file_menu, "more": self.more,
-            "test": self.test, "test_here": lambda: self.test(tools.pointer), "certify": self.certify,
+            "playtest": self.playtest, "playtest_here": lambda: self.playtest(tools.pointer), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
             "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": tools.choose_all, "delete": tools.delete,
-            "swap": lambda: tools.pick_up(tools.tile if tools.draws_objects else tools.spec),
+            "swap": lambda: tools.pick_up(tools.brush.tile if tools.brush.draws_objects else tools.brush.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
             "turn": lambda: view.turn(CLOCKWISE),
             "zoom_in": lambda: view.zoom(DOUBLE), "zoom_out": lambda: view.zoom(-DOUBLE), "zoom": lambda: view.zoom(0),
             "slopes": self.switch_slopes,
-            "list": lambda: setattr(view, "listing", not view.listing),
-            "find": lambda: setattr(view, "listing", True),
-            "lines": lambda: self.switch("lines", "Lines from doors and exits to their switches"),
-            "paths": lambda: self.switch("paths", "Paths of the last test and of the solver"),
-            "tests": self.switch_tests,
+            "list": lambda: self.show_list(not view.listing), "find": lambda: self.show_list(True),
+            "lines": self.switch_lines, "paths": self.switch_paths,
+            "playtests": self.switch_playtests,
             "reach": self.next_reach,
             "next_finding": lambda: self.go_to_finding(self.view.finding + 1),
             "next_entry": lambda: self._palette.step(1),
@@ -218,7 +212,7 @@ class EditorCommands(DocumentCommands):
         prompt, load = "Name of the stamp", self._load
         ask_text(self.app, "Keep as a stamp", prompt, "", "Keep", lambda name: load(partial(keep, name)), 40)
 
-    def choose(self, name: str, button: Area) -> None:
+    def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
         if name in (steps := self._steps()):
             actions, now = steps[name]
@@ -227,34 +221,44 @@ class EditorCommands(DocumentCommands):
         else:
             self.run(name)
 
+    def snap(self, snap: str) -> None:
+        self.session.tools.brush.snap = snap
+
     def mirror(self, symmetry: str) -> None:
         self.session.tools.finish()
-        self.session.tools.symmetry = symmetry
+        self.session.tools.brush.symmetry = symmetry
         self.view.hint = f"Mirror: {_MIRRORS[symmetry]}"
 
     def switch_slopes(self) -> None:
         tools = self.session.tools
-        self.session.set_slopes(not tools.slopes)
-        how = "set themselves where full tiles are drawn or erased" if tools.slopes else "stay as drawn"
+        self.session.set_slopes(not tools.brush.slopes)
+        how = "set themselves where full tiles are drawn or erased" if tools.brush.slopes else "stay as drawn"
         self.view.hint = f"Slopes {how}"
 
-    def switch(self, name: str, what: str) -> None:
-        setattr(self.view, name, not getattr(self.view, name))
-        self.view.hint = f"{what} are {'shown' if getattr(self.view, name) else 'hidden'}"
+    def show_list(self, listing: bool) -> None:
+        self.view.listing = listing
 
-    def switch_tests(self) -> None:
-        """Show or hide the paths and deaths of all tests of the level as it is."""
-        view, count = self.view, len(self.session.tries)
-        view.tests = not view.tests
+    def switch_lines(self) -> None:
+        self.view.lines = not self.view.lines
+        self.view.hint = f"Lines from doors and exits to their switches are {_shown(self.view.lines)}"
+
+    def switch_paths(self) -> None:
+        self.view.paths = not self.view.paths
+        self.view.hint = f"Paths of the last test and of the solver are {_shown(self.view.paths)}"
+
+    def switch_playtests(self) -> None:
+        """Show or hide the paths and deaths of all playtests of the level as it is."""
+        view, count = self.view, len(self.session.playtests.shown)
+        view.playtest_map = not view.playtest_map
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         if not count:
             what = "No tests yet: F5 plays the level"
-        view.hint = what if view.tests else ""
+        view.hint = what if view.playtest_map else ""
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
-        self.session.next_start()
-        asks = self.session.start != "off" and not self.view.hovering
+        self.session.at_pointer.next_start()
+        asks = self.session.at_pointer.start != "off" and not self.view.hovering
         self.view.hint = "Point at a place in the level: it is shown what the ninja reaches from there" if asks else ""
 
     def go_to_finding(self, index: int) -> None:
@@ -279,19 +283,19 @@ class EditorCommands(DocumentCommands):
             self.view.hovering = True
         self.view.hint = finding.advice
 
-    # --- trying and certifying ---
+    # --- playtesting and certifying ---
 
-    def test(self, at: Point | None = None, says: str | None = None, begun: Begun = NOTHING_BEGUN) -> None:
-        """Play the level. ``says``: other messages. ``at``: where the ninja begins, by default at its place.
+    def playtest(self, at: Point | None = None, *, says: str | None = None, lead: bytes = b"", deaths: int = 0) -> None:
+        """Play the level. ``at``: where the ninja begins; there, no message of the level's start is shown.
 
-        Elsewhere nothing is said of the start.
+        ``says``: other messages than the level's; ``lead``, ``deaths``: as of ``PlaytestScreen``.
         """
         session, entry = self.session, self._entry()
         session.tools.finish()
         try:
             level = with_ninja_at(session.draft, at) if at else session.draft.level
             says = session.draft.says if says is None else says
-            screen = TryScreen(self.app, session, level, says, entry, begun)
+            screen = PlaytestScreen(session, level, says=says, there=entry, lead=lead, deaths=deaths)
         except LevelError as error:
             self.app.notify(f"{error.what}: Shift+N and a click places a ninja, F6 tests with one at the pointer")
             return
@@ -300,25 +304,30 @@ class EditorCommands(DocumentCommands):
             screen.play.messages.at_start()
         self.app.push(screen)
 
-    def test_message(self, number: int, place: Point | None, says: str) -> None:
+    def playtest_message(self, number: int, place: Point | None, says: str) -> None:
         """Play the level with these messages from just before one of them; ``place``: where it is said, if known.
 
-        The way there is that of the known run, or of the last test; else it begins on a floor before the place.
+        The way there is that of the known run, or of the last playtest; else it begins on a floor before the place.
         """
         session, messages = self.session, parse_messages(says)
         level, message = session.draft.level, messages[number] if messages else None
         if message is None or message.when in {"start", "death"}:
-            self.test(None, says, (b"", int(message.number) if message else 0))
+            self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
-        runs = [session.certifying_inputs, *(run.inputs for run in session.tries[-1:] if run.level == level), waits]
-        with suppress(LevelError):  # without a ninja, which the test reports
+        runs = [
+            session.certifying_inputs,
+            *(run.inputs for run in session.playtests.shown[-1:] if run.level == level),
+            waits,
+        ]
+        with suppress(LevelError):  # without a ninja, which the playtest reports
             moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
             if lead is not None:
-                self.test(None, says, (lead, 0))
+                self.playtest(says=says, lead=lead)
                 return
-        self.test(place and place_before(session.draft, place, message.size, touch=message.when != "at"), says)
+        at = place and place_before(session.draft, place, message.size, touch=message.when != "at")
+        self.playtest(at, says=says)
 
     def certify(self) -> None:
         certifier = self.session.certifier
@@ -350,23 +359,23 @@ class EditorCommands(DocumentCommands):
             return
         if tools.tool not in (TOOLS[0], "select"):
             tools.tool = TOOLS[0]
-        elif view.hint == _AGAIN:
+        elif view.offers_menu:
             view.hint = ""
             self.file_menu()
         else:
-            view.hint = _AGAIN
+            view.offer_menu()
 
     def more(self) -> None:
-        """A menu of all commands about tests and about what is shown, for the mouse."""
+        """A menu of all commands about playtests and about what is shown, for the mouse."""
 
-        def test_at(cell: Cell | None) -> None:
+        def playtest_at(cell: Cell | None) -> None:
             if cell:
-                self.test(self.session.tools.pointer)
+                self.playtest(self.session.tools.pointer)
 
         def ask() -> None:
-            self.view.taker, self.view.hint = test_at, "Click where the ninja begins; Esc gives up"
+            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc gives up"
 
-        here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("test_here", *IN_MORE))
+        here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("playtest_here", *IN_MORE))
         choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
         rows = [(command.label, partial(self.run, command.name), f"Key: {key_text(command)}") for command in commands]
         self.app.push(Menu(self.app, "More", [choose_place, *rows, CANCEL]))
@@ -386,6 +395,7 @@ class EditorCommands(DocumentCommands):
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Save the run that was found", session.keep_certificate, "As a replay among yours"),
             ("Ten good levels", self.good_levels, "Ten of the game's, and what makes each of them good"),
+            *in_page_or_not([], [("Packs...", self.packs, "Bundle your levels; Back leads here")]),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
         self.app.push(CommandMenu(self.app, "Level", rows, EDITOR_COMMANDS, _IN_MENU, self.run))
@@ -415,7 +425,7 @@ class EditorCommands(DocumentCommands):
         saved, path = session.is_saved, session.source.path
 
         def follow() -> None:
-            source = session.changed_source()
+            source = session.edited.changed_source()
             if source is None:
                 return
             if saved:
@@ -475,7 +485,7 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, inputs, test = self._entry(), partial(getattr, self.session, "certifying_inputs"), self.test_message
+        entry, inputs, test = self._entry(), lambda: self.session.certifying_inputs, self.playtest_message
         mood = entry.mood if entry else Mood()
         self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
 
@@ -493,13 +503,28 @@ class EditorCommands(DocumentCommands):
         """Show the screen of good levels; each can be opened here."""
         self.app.push(GoodLevelsScreen(self.app, lambda entry: self.unless_unsaved(lambda: self.edit_entry(entry))))
 
-    def edit_entry(self, entry: Entry) -> None:
-        """Edit a level of the browser: the player's in its file; a copy of the game's or of a zip's."""
+    def packs(self) -> None:
+        """Show the player's packs over the editor, which then edits the level that is chosen there."""
+        from ninja_game.play.menus.packs import PackScreen  # it needs NumPy, which takes a moment
+
+        app, editor = self.app, self.app.top
+
+        def edit(entry: Entry, finding: Finding | None = None) -> None:
+            while app.top is not editor:
+                app.pop()
+            self.unless_unsaved(lambda: self.edit_entry(entry, finding))
+
+        app.push(PackScreen(app, edit))
+
+    def edit_entry(self, entry: Entry, finding: Finding | None = None) -> None:
+        """Edit a level of the browser: the player's in its file; a copy of the game's or of a zip's. Show a finding."""
         path = Path(entry.named.file)
         if entry.source != GAME and entry.named.ascii and path.is_file():
             self.open_file(path)
         else:
             self.session.begin(Source(draft_of(entry.named)))
+        if finding:
+            self.show_finding(finding)
 
     def open_file(self, path: Path) -> None:
         self._load(lambda: self.session.begin(open_source(path)))
@@ -525,72 +550,3 @@ class EditorCommands(DocumentCommands):
             CANCEL,
         ]
         self.unless_unsaved(lambda: self.app.push(Menu(self.app, "New level from", rows)))
-
-
-class TryContext(Playthrough):
-    """A level that is only tested: with practice tools, without a clock; nothing counts."""
-
-    next_label = "back to the editor"
-
-    def __init__(self, session: EditorSession, entry: Entry, begun: Begun) -> None:
-        super().__init__(session.app.player, entry, practice_mode=True)
-        self._session, (self.lead, self.deaths) = session, begun
-
-    def _tried(self, attempt: Attempt, *, over: bool) -> None:
-        self._session.tried(self.level, bytes(attempt.inputs), over=over)
-
-    def beginning(self) -> tuple[Level, bytes]:
-        """The start of the level under edit, wherever the test begins: its texts lie where they will lie in play."""
-        level, inputs = self._session.draft.level, self._session.certifying_inputs
-        return (level if any(spec.kind == NINJA for spec in level.objects) else self.level), inputs
-
-    def ghosts(self) -> list[PacedRun]:
-        """None: a level under edit has no best run."""
-        return []
-
-    def messages(self) -> tuple[LevelMessage, ...]:
-        """All messages, however often the level was passed."""
-        return parse_messages(self.entry.named.says)
-
-    def passed(self, attempt: Attempt) -> list[str]:
-        self._tried(attempt, over=True)
-        certifies = not self.lead and self._session.passed(self.level, attempt)
-        return ["It can be passed: this run certifies it" if certifies else "It can be passed"]
-
-    def died(self, attempt: Attempt) -> None:
-        self._tried(attempt, over=True)
-
-    def gave_up(self, attempt: Attempt) -> None:
-        self.left(attempt, over=True)
-
-    def left(self, attempt: Attempt, *, over: bool = False) -> None:
-        """Report to the editor a test that was left before its end."""
-        if attempt.outcome == "running":
-            self._tried(attempt, over=over)
-
-    def advance(self) -> Navigation:
-        return Navigation.BACK
-
-
-class TryScreen(LevelScreen):
-    """Plays a level, in the colours of ``there``; the back key leaves at once. Raises LevelError without a ninja."""
-
-    music = SILENCE
-
-    def __init__(
-        self, app: App, session: EditorSession, level: Level, says: str, there: Entry | None, begun: Begun
-    ) -> None:
-        title = f"{session.name} ({app.controls.name('back')}: back to the editor)"
-        named = NamedLevel(title, "", "", level, "", says=says)
-        self._trying = TryContext(session, Entry(named, YOURS, there.episode if there else ""), begun)
-        super().__init__(app, self._trying)
-
-    def leave(self) -> None:
-        super().leave()
-        self._trying.left(self.attempt)
-
-    def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
-        if "back" in pressed or "quit" in pressed:
-            self.app.pop()
-        else:
-            super()._dispatch_action(pressed)

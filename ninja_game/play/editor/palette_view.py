@@ -9,8 +9,20 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor import brush
 from ninja_game.editor.motion import TILE_IDS
+from ninja_game.editor.palette import (
+    EMPTY,
+    FAMILIES,
+    FULL,
+    OBJECT_TYPE_NAMES,
+    OBJECT_TYPES,
+    QUARTERS,
+    TILE_KEYS,
+    ObjectType,
+    object_type_of,
+    tile_name,
+    with_switch,
+)
 from ninja_game.editor.specs import BODY_PART, points, properties, word
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
@@ -152,7 +164,7 @@ _BLOCK, BLOCK_ROW = 42.5, 35.0  # distance between two families of tiles, across
 _OBJECTS = 104.0  # distance from the top to the objects, px
 OBJECTS_PER_ROW = 6
 
-TILE_ORDER = (brush.EMPTY, brush.FULL, *(tile for family in brush.FAMILIES for tile in family.tiles))
+TILE_ORDER = (EMPTY, FULL, *(tile for family in FAMILIES for tile in family.tiles))
 
 CHANGES: dict[str, dict[str, str | int]] = {
     "direction": {"w": "up", "a": "left", "s": "down", "d": "right"},
@@ -162,12 +174,12 @@ CHANGES: dict[str, dict[str, str | int]] = {
 }
 """The letters that change each property of the drawn or selected objects: to a word, or by a number of words."""
 
-PaletteEntry = int | brush.ObjectType  # a tile or a type of objects
+PaletteEntry = int | ObjectType  # a tile or a type of objects
 
-_FAMILY_OF_KEY = {family.key: family for family in brush.FAMILIES}
+_FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
 _ENTRY_OF_KEY: dict[str, PaletteEntry] = {
-    **{key: tile for tile, key in brush.TILE_KEYS.items()},
-    **{f"shift+{object_type.key}": object_type for object_type in brush.OBJECT_TYPES},
+    **{key: tile for tile, key in TILE_KEYS.items()},
+    **{f"shift+{object_type.key}": object_type for object_type in OBJECT_TYPES},
 }
 
 
@@ -182,11 +194,12 @@ def entry_of_key(tools: EditorTools, key: str) -> PaletteEntry | None:
 
     With tiles a letter of QUARTERS takes that quarter of the family in hand.
     """
-    family = next((item for item in brush.FAMILIES if tools.tile in item.tiles), brush.FAMILIES[0])
+    tile = tools.brush.tile
+    family = next((item for item in FAMILIES if tile in item.tiles), FAMILIES[0])
     if key in _FAMILY_OF_KEY:
-        return _FAMILY_OF_KEY[key].tiles[family.tiles.index(tools.tile) if tools.tile in family.tiles else 0]
-    if key in list(brush.QUARTERS) and not tools.about_objects:
-        return family.tiles[brush.QUARTERS.index(key)]
+        return _FAMILY_OF_KEY[key].tiles[family.tiles.index(tile) if tile in family.tiles else 0]
+    if key in list(QUARTERS) and not tools.about_objects:
+        return family.tiles[QUARTERS.index(key)]
     return _ENTRY_OF_KEY.get(key)
 
 
@@ -202,14 +215,14 @@ class PaletteView(Widget):
         """Every entry with its square; the four tiles of a family lie like their keys Q W A S."""
         x, y, _, _ = self.area
         areas: list[tuple[PaletteEntry, Area]] = []
-        for number, tile in enumerate((brush.EMPTY, brush.FULL)):
+        for number, tile in enumerate((EMPTY, FULL)):
             areas.append((tile, (x + 104 + number * (TILE + 14), y + 1, TILE, TILE)))
-        for number, family in enumerate(brush.FAMILIES):
+        for number, family in enumerate(FAMILIES):
             row, column = divmod(number, 4)
             left, top = x + 11 + column * _BLOCK, y + 21 + row * BLOCK_ROW
             for k, tile in enumerate(family.tiles):
                 areas.append((tile, (left + k % 2 * TILE, top + k // 2 * TILE, TILE, TILE)))
-        for number, object_type in enumerate(brush.OBJECT_TYPES):
+        for number, object_type in enumerate(OBJECT_TYPES):
             row, column = divmod(number, OBJECTS_PER_ROW)
             top = y + _OBJECTS + row * (OBJECT + KEY)
             areas.append((object_type, (x + column * (OBJECT + 0.6), top, OBJECT, OBJECT)))
@@ -217,17 +230,17 @@ class PaletteView(Widget):
 
     @property
     def _in_hand(self) -> PaletteEntry:
-        if not self.tools.draws_objects:
-            return self.tools.tile
-        return brush.OBJECT_TYPES[brush.OBJECT_TYPE_NAMES.index(brush.object_type_of(self.tools.spec))]
+        if not self.tools.brush.draws_objects:
+            return self.tools.brush.tile
+        return OBJECT_TYPES[OBJECT_TYPE_NAMES.index(object_type_of(self.tools.brush.spec))]
 
     @property
     def label(self) -> str:
         """The name of the entry under the mouse, or else of the chosen one; of objects with the key."""
         what = self._in_hand if self.hovered is None else self.hovered
-        if isinstance(what, brush.ObjectType):
+        if isinstance(what, ObjectType):
             return f"{what.name.capitalize()} (Shift+{key_label_of(what.key)})"
-        name = brush.tile_name(what)
+        name = tile_name(what)
         return f"{name[0].upper()}{name[1:]}"
 
     def _at(self, x: float, y: float) -> PaletteEntry | None:
@@ -244,7 +257,7 @@ class PaletteView(Widget):
         return True
 
     def _take(self, entry: PaletteEntry) -> None:
-        self.tools.pick_up(entry.spec if isinstance(entry, brush.ObjectType) else entry)
+        self.tools.pick_up(entry.spec if isinstance(entry, ObjectType) else entry)
 
     def hover(self, x: float, y: float) -> None:
         self.hovered = self._at(x, y)
@@ -254,21 +267,21 @@ class PaletteView(Widget):
         tools = self.tools
         if tools.bend(by):
             return
-        entries: Sequence[PaletteEntry] = brush.OBJECT_TYPES if tools.draws_objects else TILE_ORDER
+        entries: Sequence[PaletteEntry] = OBJECT_TYPES if tools.brush.draws_objects else TILE_ORDER
         place = entries.index(self._in_hand) if self._in_hand in entries else 0
         self._take(entries[(place + by) % len(entries)])
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         canvas, palette = theme.canvas, theme.palette
         x, y, w, _ = self.area
-        objects = self.tools.draws_objects
+        objects = self.tools.brush.draws_objects
         for text, top, height, lit in (("Tiles", y, 89, not objects), ("Objects: Shift+letter", y + 89, 126, objects)):
             if lit:
                 lit_area = x - 3, top - 2, w + 5, height
                 canvas.fill_rect(surface, mixed(palette.panel, palette.accent, 0.2), *lit_area, 3)
                 canvas.frame_rect(surface, palette.accent, *lit_area, 1, 3)
             theme.text(surface, text, x + 1, top + 2, size=10, bold=lit)
-        for number, family in enumerate(brush.FAMILIES):
+        for number, family in enumerate(FAMILIES):
             row, column = divmod(number, 4)
             at = x + 3 + column * _BLOCK, y + 32 + row * BLOCK_ROW
             self._draw_key(surface, theme, family.key, at)
@@ -276,11 +289,11 @@ class PaletteView(Widget):
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, entry, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
-            if isinstance(entry, brush.ObjectType):
+            if isinstance(entry, ObjectType):
                 below = area[0] + OBJECT / 2 - 2.5, area[1] + OBJECT
                 self._draw_key(surface, theme, entry.key, below)
-            elif entry in brush.TILE_KEYS:
-                self._draw_key(surface, theme, brush.TILE_KEYS[entry], (area[0] - 9, area[1] + 4))
+            elif entry in TILE_KEYS:
+                self._draw_key(surface, theme, TILE_KEYS[entry], (area[0] - 9, area[1] + 4))
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if entry == self._in_hand:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
@@ -290,12 +303,12 @@ class PaletteView(Widget):
 
     def _icon(self, theme: Theme, entry: PaletteEntry, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
-        if not isinstance(entry, brush.ObjectType):
+        if not isinstance(entry, ObjectType):
             return tile_icon(entry, size, theme.palette.base.name)
         # The chosen entry with its present properties.
-        in_hand = self.tools.draws_objects and brush.object_type_of(self.tools.spec) == entry.name
+        in_hand = self.tools.brush.draws_objects and object_type_of(self.tools.brush.spec) == entry.name
         return object_icon(
-            self.tools.spec if in_hand else entry.spec, size, theme.canvas.scale, theme.palette.base.name
+            self.tools.brush.spec if in_hand else entry.spec, size, theme.canvas.scale, theme.palette.base.name
         )
 
 
@@ -312,7 +325,7 @@ def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) 
 def object_icon(spec: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
     """An object in the middle of a small picture; a door or an exit without its switch."""
     canvas = Canvas((round(792 * scale), round(600 * scale)))
-    far = brush.with_switch(spec, 700.0, 500.0, "half")
+    far = with_switch(spec, 700.0, 500.0, "half")
     x, y = points(far)[BODY_PART]
     px, py = canvas.point(x, y)
     canvas.origin = size[0] // 2 - px, size[1] // 2 - py

@@ -6,14 +6,17 @@ from collections.abc import Sequence
 
 import pygame
 
-from ninja_game.editor.brush import SNAPS, ObjectType, snapped
 from ninja_game.editor.files import Source
+from ninja_game.editor.palette import SNAPS, ObjectType, snapped
 from ninja_game.editor.specs import PROPERTIES, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
+from ninja_game.play.editor.bars import StatusLine, Toolbar
 from ninja_game.play.editor.commands import EDITOR_COMMANDS, EditorCommands
+from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.palette_view import PaletteView, entry_of_key, live_changes
-from ninja_game.play.editor.parts import FilePart, Findings, ObjectList, PalettePart, Properties, StatusLine, Toolbar
+from ninja_game.play.editor.panels import FilePart, Findings, PalettePart
+from ninja_game.play.editor.properties import Properties
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.menu_screen import DIRECTIONS
@@ -75,6 +78,8 @@ class EditorScreen(WorkspaceScreen):
     def enter(self) -> None:
         """The first time, ask about an unsaved level, unless a level was just chosen."""
         super().enter()
+        with self.app.noting():
+            self.session.follow_move()
         self.follow_parts()
         if not self._entered:
             self._entered = True
@@ -83,7 +88,7 @@ class EditorScreen(WorkspaceScreen):
     def leave(self) -> None:
         super().leave()
         self.session.certify_file()
-        self.session.autosave.flush(self.session.tools.history, self.session.source)
+        self.session.edited.autosave.flush(self.session.tools.history, self.session.source)
 
     def capture(self, event: InputEvent) -> bool:
         """Enter ends what is typed, too."""
@@ -128,7 +133,7 @@ class EditorScreen(WorkspaceScreen):
         if tools.tool == "select" and tools.selection and not self.view.by_keys:
             tools.nudge(dx, dy)
             return
-        snap = tools.snap if tools.draws_objects or tools.tool == "select" else "cell"
+        snap = tools.brush.snap if tools.brush.draws_objects or tools.tool == "select" else "cell"
         x, y = tools.pointer
         step = SNAPS[snap]
         self.view.hovering = self.view.by_keys = True

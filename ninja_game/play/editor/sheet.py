@@ -14,7 +14,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.draft import Draft, changed_cells
-from ninja_game.editor.playtests import PathPoints, TestMap
+from ninja_game.editor.playtests import PathPoints, PlaytestMap
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, has_switch, object_type_name, points
 from ninja_game.formats.messages import LevelMessage, parse_messages
 from ninja_game.levels.findings import Finding
@@ -342,8 +342,8 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 def level_marks(
     canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
-    routes: Sequence[tuple[PathPoints, Colour]], tests: TestMap, signs: Sequence[Point], messages: Sequence[Point],
-    axes: Sequence[tuple[Point, Point]],
+    routes: Sequence[tuple[PathPoints, Colour]], playtests: PlaytestMap, signs: Sequence[Point],
+    messages: Sequence[Point], axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by their contents: equal keys, equal marks. Those of ``before`` are used again."""
     marks: dict[Hashable, LevelMark] = {}
@@ -351,10 +351,10 @@ def level_marks(
     def add(key: Hashable, make: Callable[[], LevelMark]) -> None:
         marks[key] = before[key] if key in before else make()
 
-    for cell, count in tests.visits.items():
-        share = round(count / max(tests.visits.values()), 1)
+    for cell, count in playtests.visits.items():
+        share = round(count / max(playtests.visits.values()), 1)
         add(("visit", cell, share), partial(visit_mark, canvas, palette, cell, share))
-    for place in filter(lambda point: is_near(*point), tests.deaths):
+    for place in filter(lambda point: is_near(*point), playtests.deaths):
         add(("death", place), partial(death_mark, canvas, palette, place))
     for a, b in axes:
         add(("axis", a, b), partial(line_mark, canvas, palette.accent, a, b))

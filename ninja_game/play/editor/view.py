@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.playtests import PathPoints, TestMap
+from ninja_game.editor.playtests import PathPoints, PlaytestMap
 from ninja_game.editor.reach import SQUARE, Reach
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, carried, object_type_name, points
 from ninja_game.editor.stamp import Stamp, area_around, area_between, nearest_part
@@ -155,7 +155,7 @@ class Overlay:
             self._ghost(ghost, empty=tools.pastes_empty)
             return
         draws = tools.effective_tool not in ("select", "pick")
-        motions = (Motion(), *(SYMMETRIES[tools.symmetry] if draws else ()))
+        motions = (Motion(), *(SYMMETRIES[tools.brush.symmetry] if draws else ()))
         if not draws:
             target = tools.near(PICK_REACH)
             for message in messages_at(tools.draft.says, tools.cell):
@@ -164,7 +164,7 @@ class Overlay:
             if target:
                 self.target.sprite(_ring("faint"), *points(tools.draft.objects[target[0]])[target[1]])
                 return
-        if not tools.draws_objects or not draws:
+        if not tools.brush.draws_objects or not draws:
             for cell, tile in tools.preview.items() if draws else ():
                 self._ghost_tile(cell, tile)
             for motion in motions:
@@ -205,6 +205,14 @@ class EditorLayout(NamedTuple):
 LAYOUT = EditorLayout()
 
 
+class Hint(NamedTuple):
+    """A text of the status line about a draft. ``offers_menu``: whether Esc opens the File menu while it is shown."""
+
+    draft: Draft
+    text: str
+    offers_menu: bool = False
+
+
 class EditorView(Pane):
     """The level under edit with its overlay."""
 
@@ -214,10 +222,10 @@ class EditorView(Pane):
         self.app = app
         self.session = session
         self.hovering = self.by_keys = False  #: whether the pointer is shown; whether keys or a pad moved it last
-        self._hint = session.draft, ""
+        self._hint = Hint(session.draft, "")
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = self.tests = False  #: whether a list replaces the palette; whether the map of tests is on
+        self.listing = self.playtest_map = False  #: whether a list replaces the palette; whether that map is shown
         #: gets the cell of the next press, which then draws nothing; None: cancelled
         self.taker: Callable[[Cell | None], None] | None = None
         session.tools.gave_up = self._tell_given_up
@@ -236,12 +244,19 @@ class EditorView(Pane):
     @property
     def hint(self) -> str:
         """A text for the status line; it is dropped when the level changes."""
-        about, text = self._hint
-        return text if about is self.session.draft else ""
+        return self._hint.text if self._hint.draft is self.session.draft else ""
 
     @hint.setter
     def hint(self, text: str) -> None:
-        self._hint = self.session.draft, text
+        self._hint = Hint(self.session.draft, text)
+
+    @property
+    def offers_menu(self) -> bool:
+        """Whether the hint that is shown offers the File menu."""
+        return bool(self.hint) and self._hint.offers_menu
+
+    def offer_menu(self) -> None:
+        self._hint = Hint(self.session.draft, "Esc again opens the File menu, where Leave is too", offers_menu=True)
 
     def _tell_given_up(self, spec: ObjectSpec) -> None:
         self.app.notify(f"The {object_type_name(spec)} is put away: it had no switch yet")
@@ -382,12 +397,10 @@ class EditorView(Pane):
 
     def render_key(self) -> tuple[object, ...]:
         """All that the overlay depends on; the sheet watches the level itself."""
-        tools = self.session.tools
+        tools, reach = self.session.tools, self.session.at_pointer.reach
         return (
-            tools.pointer, self.hovering, tools.tool, tools.draws_objects, tools.tile, tools.spec, tools.snap,
-            tools.symmetry, tools.slopes, tools.nearest, tools.ghost, tools.pastes_empty, tools.selection,
-            tools.marquee, tools.placing_switch, tools.draft, self.message,
-            self.session.reach and self.session.reach[1:],
+            tools.pointer, self.hovering, tools.tool, tools.brush.state, tools.ghost, tools.pastes_empty,
+            tools.selection, tools.marquee, tools.placing_switch, tools.draft, self.message, reach and reach[1:],
         )  # fmt: skip
 
     def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
@@ -407,40 +420,40 @@ class EditorView(Pane):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        reach = self.session.reach if self.hovering else None
+        reach = self.session.at_pointer.reach if self.hovering else None
         spot = next((at for at, number in message_places(tools.draft).items() if number == self.message), None)
         return [*changed, *self.overlay.draw(surface, tools, reach, spot, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
-        session, palette = self.session, self.app.theme.palette
-        certifier = session.certifier
-        stale = certifier.is_stale(session.draft.level)
+        session, palette, draft = self.session, self.app.theme.palette, self.session.draft
+        certification, stale = session.certifier.certification, session.certifier.is_stale(draft.level)
+        playtests, examination, drone_round = session.playtests, session.examination, session.at_pointer.drone_round
         state = (
-            session.draft.objects, self.lines, self.paths, session.last_try, certifier.certification.route, stale,
-            session.findings, session.tools.symmetry, session.draft.says, self.tests and session.test_map,
-            session.last_death, session.drone_round,
+            draft.objects, self.lines, self.paths, playtests.last_route, certification.route, stale,
+            examination.findings, session.tools.brush.symmetry, draft.says, self.playtest_map and playtests.map,
+            playtests.last_deaths, drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
-        open_findings = [finding for finding in session.findings if finding.code not in session.accepted]
-        signs = [
-            p for finding in open_findings for p in finding_points(session.examined or session.draft.level, finding)
-        ]
-        routes: list[tuple[PathPoints, Colour]] = [(session.last_try, palette.ghost)]
-        routes.append((certifier.certification.route, palette.faint if stale else palette.good))
-        routes.append((session.drone_round, palette.bad))
+        open_findings = [finding for finding in examination.findings if finding.code not in session.edited.accepted]
+        level = examination.level or draft.level
+        signs = [place for finding in open_findings for place in finding_points(level, finding)]
+        routes: list[tuple[PathPoints, Colour]] = [(playtests.last_route, palette.ghost)]
+        routes.append((certification.route, palette.faint if stale else palette.good))
+        routes.append((drone_round, palette.bad))
+        last = PlaytestMap({}, playtests.last_deaths if self.paths else ())
         marks = level_marks(
             self.sheet.flat,
             palette,
-            session.draft,
+            draft,
             self.sheet.marks,
             lines=self.lines,
             signs=list(dict.fromkeys(signs)),
-            messages=list(message_places(session.draft)),
+            messages=list(message_places(draft)),
             routes=routes if self.paths else (),
-            tests=(self.tests and session.test_map) or TestMap({}, session.last_death if self.paths else ()),
-            axes=SYMMETRY_AXES.get(session.tools.symmetry, ()),
+            playtests=(self.playtest_map and playtests.map) or last,
+            axes=SYMMETRY_AXES.get(session.tools.brush.symmetry, ()),
         )
         self.sheet.show_marks(marks)
 

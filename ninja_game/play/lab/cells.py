@@ -147,6 +147,8 @@ _NINJA: Point = (292.0, 172.0)
 
 
 class RayCast(Figure):
+    """Drag the end of a ray: the cells that it visits, the shapes that are tested, the hit."""
+
     name = "rays"
     start = (330.0, 190.0)
     moves = "end"
@@ -196,7 +198,7 @@ class RayCast(Figure):
         ray = self.from_x, self.from_y, self.x, self.y
         (stopped, x, y), calls = traced(ray_tiles, self.tiles, self.world, *ray)
         cells = [cell_at(call.arguments["cx"], call.arguments["cy"]) for call in calls if call.name == "ray_tile"]
-        tiles = self.tiles.tiles
+        tiles = self.tiles.ids
         return [cell for cell in cells if tiles[cell]], bool(stopped), (x, y)
 
     def met(self) -> tuple[list[int], list[int]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import sin
 
-from ninja_game.editor.brush import tile_name
+from ninja_game.editor.palette import tile_name
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import MOVEMENTS
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, room_world
@@ -77,10 +77,10 @@ class EdgeStates(Figure):
 
     def numbers(self) -> list[tuple[str, str]]:
         column, row = tiles.COLUMN[self.cell], tiles.ROW[self.cell]
-        tile = self.tiles.tiles[self.cell]
+        tile = self.tiles.ids[self.cell]
         neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
         face = tiles.FACE[4 * tile + self.side]
-        other = tiles.FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
+        other = tiles.FACE[4 * self.tiles.ids[neighbour] + (self.side ^ 2)]
         states = [
             self.world.edges[4 * cell + side]
             for cell in range(len(tiles.EXISTS))
@@ -178,6 +178,8 @@ class Doors(EdgeStates):
 
 
 class WalkingEnemies(Figure):
+    """Open and close doors: drones choose their direction by the edges around their cell."""
+
     name = "drones"
     start = (180.0, 90.0)
     movement = FigureSetting("surface-cw")

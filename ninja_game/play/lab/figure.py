@@ -120,7 +120,8 @@ class Sheet:
     def __init__(self, surface: pygame.Surface, theme: Theme, view: View) -> None:
         self.surface = surface
         self.view = view
-        (x, y), scale = theme.canvas.exact(FIGURE[0], FIGURE[1]), theme.canvas.scale * view.zoom
+        x, y = theme.canvas.exact(FIGURE[0], FIGURE[1])
+        scale = theme.canvas.scale * view.zoom
         corner = round(x - view.left * scale), round(y - view.top * scale)
         self.canvas = Lens(theme.canvas.window, scale, corner)
         self.theme = theme
@@ -152,8 +153,8 @@ class Sheet:
                 self.surface, (ink.r, ink.g, ink.b, alpha), CENTRE_X[cell] - HALF, CENTRE_Y[cell] - HALF, CELL, CELL
             )
 
-    def tiles(self, level: TileMap) -> None:
-        for cell, tile in enumerate(level.tiles):
+    def tiles(self, tiles: TileMap) -> None:
+        for cell, tile in enumerate(tiles.ids):
             x, y = CENTRE_X[cell], CENTRE_Y[cell]
             seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
             if seen and EXISTS[cell] and (corners := [(x + dx, y + dy) for dx, dy in outline(tile)]):

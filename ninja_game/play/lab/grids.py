@@ -168,7 +168,7 @@ class LooseGrid(Figure):
             ("list changes in this tick", f"{loose.list_changes} / {normal.list_changes}"),
             ("tests, if all ask for all", f"{loose.tests} / {normal.tests}"),
             ("cells that the handle asks", f"{len(nine)} / {len(four)}"),
-            ("objects that it is told of", f"{in_nine} / {in_four}"),
+            ("objects that it tests", f"{in_nine} / {in_four}"),
         ]
 
     def draw(self, sheet: Sheet) -> None:
@@ -206,6 +206,8 @@ class LooseGrid(Figure):
 
 
 class FiveCells(Figure):
+    """All touching pairs of a crowd, each found once: an object looks into its own cell and four of its neighbours."""
+
     name = "pairs"
     view = FIELD
     count = FigureSetting(60)

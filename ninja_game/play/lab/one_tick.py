@@ -35,6 +35,8 @@ LAB_INPUTS = read_inputs([(1, ".*10 R*30 RJ*20 R*30 L*40 LJ*25 L*30 .*10")]).key
 
 
 class OneTick(Figure):
+    """Every call of a rule in one tick of a small level, in order, with its arguments and result."""
+
     name = "tick"
     keys = -1
     speed: float = 4

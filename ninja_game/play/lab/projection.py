@@ -8,7 +8,7 @@ from math import cos, sin
 from typing import NamedTuple
 
 from ninja_game.backend.plain import restore_plain, save_plain
-from ninja_game.editor.brush import tile_name
+from ninja_game.editor.palette import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.play.lab.cells import BODY_CHOICES
@@ -32,7 +32,7 @@ SHAPE_TESTS = ("collide_own_tile", "collide_vertical", "collide_horizontal", "co
 
 
 class Push(NamedTuple):
-    """What happened to a body. ``points``: its positions before, between and after its pushes, px."""
+    """The pushes of a body out of tiles. ``points``: its positions before, between and after them, px."""
 
     points: list[Point]
     calls: list[Call]

@@ -51,7 +51,7 @@ def hud_view(play: LevelPlay) -> HudView:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
     if play.phase is Phase.PASSED:
-        next_label = "go on" if playthrough.next_screen is Navigation.EPISODE_END else playthrough.next_label
+        next_label = "go on" if playthrough.on_leaving is Navigation.EPISODE_END else playthrough.next_label
         keys = f"{key('confirm')}: {next_label}    {key('retry')}: play again    {key('replay')}: replay"
         if not playthrough.has_next:
             keys = f"{key('confirm')}: play again    {key('replay')}: replay    {key('back')}: leave"

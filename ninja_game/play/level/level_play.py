@@ -59,7 +59,7 @@ def followed(shown: float, true: float) -> float:
 
 
 def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: bytes) -> Things:
-    """What a level's texts should not cover: all things at its start, and the author's route."""
+    """The places that a level's texts should not cover: all things at its start, and the author's route."""
     places = list(things_in(world, tagged=bool(arrow_targets(texts))))
     if inputs:
         run = Simulation(level)
@@ -71,6 +71,8 @@ def things_at_start(level: Level, world: World, texts: Iterable[str], inputs: by
 
 
 class Phase(Enum):
+    """The phases of a level on the screen (game.md §2): waiting for a key, in play, paused, and after its end."""
+
     READY = "ready"
     PLAY = "play"
     PAUSED = "paused"
@@ -100,7 +102,7 @@ class LevelPlay:
         level, inputs = playthrough.beginning() if messages else (playthrough.level, b"")
         world = self.attempt.simulation.world if level == playthrough.level else Simulation(level).world
         texts = [message.text for message in messages]
-        self.things = things_at_start(level, world, texts, inputs)  #: what a message should not cover
+        self.things = things_at_start(level, world, texts, inputs)  #: places that a message should not cover
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = playthrough.level.gold
@@ -111,7 +113,7 @@ class LevelPlay:
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)
         self.ghosts: list[Ghost] = []
-        self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)  #: inputs of the failed ones
+        self.tries: deque[bytes] = deque(maxlen=MAX_TRIES)  #: inputs of the last failed tries
         self._frozen_ms = 0
         self._phase_before = Phase.READY
         self._wait_at_start()
@@ -120,14 +122,15 @@ class LevelPlay:
         self._go_to(Phase.READY)
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
-        self.keys = self._ignored = self._tapped = 0  #: of the last tick
+        self.keys = self._ignored = self._tapped = 0  #: keys of the last tick
         #: The ninja's place when the present message came, or the run ended; None for the message of the start
         self.message_spot: tuple[float, float] | None = None
         self.after_end = self._frozen_ms = 0  #: ticks since the exit contact or death
-        self.killer, self.crushed = "", False  #: one of ``deaths.KILLERS``, and whether it crushed the ninja
+        self.killer = ""  #: one of ``deaths.KILLERS``
+        self.crushed = False  #: whether the killer crushed the ninja
         self.messages.at_start()
-        self.notices: list[str] = []  #: what a pass has won
-        self.next_par = self.playthrough.next_par()  #: in words, while the level waits at its start
+        self.notices: list[str] = []  #: sentences about what a pass has won
+        self.next_par = self.playthrough.next_par()  #: next medal and its time, while the level waits
         runs = self.playthrough.ghosts()
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.playthrough.level, self.playthrough.body, pace=pace) for run, pace in runs]
@@ -141,7 +144,7 @@ class LevelPlay:
         self.view.on_seek()
 
     def _say(self) -> None:
-        """Let the texts follow a tick."""
+        """Update the messages after a tick."""
         if self.messages.on_tick(self.attempt.simulation.world):
             self.changed, self.message_spot = True, None if self.messages.is_start else self.ninja_place()
 
@@ -157,7 +160,7 @@ class LevelPlay:
         self.changed = True
 
     def begin(self, *, ignored: int = 0) -> None:
-        """Play. ``ignored``: keys that are down, and count only when they are pressed again."""
+        """Start play. ``ignored``: keys that are down already, and count only when they are pressed again."""
         self._ignored = ignored
         self._go_to(Phase.PLAY)
 

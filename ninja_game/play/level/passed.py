@@ -16,8 +16,8 @@ from ninja_game.play.level.level_play import STAMP_TICKS
 from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import EPISODE_BEST, OF_A_LEVEL
-from ninja_game.player.playthrough import EpisodePlaythrough
 from ninja_game.player.progress import Mark, worst_medal
 from ninja_game.player.records import EpisodeBest
 from ninja_game.sim.rules import TICK_MS
@@ -160,7 +160,8 @@ class EpisodePassed(ThumbnailScreen):
             shine = (self.ticks - self._marks_end - STAMP_TICKS) / SHINE_TICKS
             draw_stamp(surface, theme, self.medal, WIDTH / 2 - half - 52, _MIDDLE, _PRIZE, stamp, shine)
         best = self._best
-        note, news = "", [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
+        note = ""
+        news = [notice for notice in run.notices if notice not in OF_A_LEVEL and notice != EPISODE_BEST]
         if not run.whole:
             note = "A level was skipped or passed with help: this does not count as a record"
             note = "Practice counts for no record" if run.practice_mode else note

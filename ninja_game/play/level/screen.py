@@ -23,8 +23,9 @@ from ninja_game.play.panels.replays import watch_replays
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.player_data import PlayerData, keep_replay
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough, Navigation, Playthrough
+from ninja_game.player.playthrough import LevelPlaythrough, Navigation, Playthrough
 from ninja_game.player.progress import opens_author
 from ninja_game.sim.inputs import JUMP_HELD
 from ninja_game.ui.audio.music import COLUMN_MUSIC, SILENCE
@@ -77,7 +78,7 @@ class LevelScreen(Screen):
         return self.play.attempt
 
     def enter(self) -> None:
-        """Uncovered: a pause is over, the clock is reset, and text input is off, so that keys are keys."""
+        """Called when the screen is on top again: ends a pause, resets the clock, turns text input off."""
         if self.phase is Phase.PAUSED:
             self.play.resume()
         self.play.clock.reset()
@@ -202,7 +203,7 @@ class LevelScreen(Screen):
     def quit(self) -> None:
         self.playthrough.gave_up(self.attempt)
         self.playthrough.data.store.flush()
-        self._leave_to(self.playthrough.next_screen)
+        self._leave_to(self.playthrough.on_leaving)
 
     def _leave_to(self, where: Navigation) -> None:
         app = self.app
@@ -267,7 +268,7 @@ class LevelScreen(Screen):
         self._dispatch_action(pressed)
 
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
-        """Do the first thing that the pressed actions mean in this phase.
+        """Do the first of the pressed actions that has an effect in this phase.
 
         After the end, a key for both jump and retry is first a jump that came too late, and then no jump.
         """
@@ -359,7 +360,7 @@ ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
         "back": LevelScreen.back, "quit": LevelScreen.quit, **_END,
     },
 }  # fmt: skip
-"""What each action does in each phase; other actions do nothing."""
+"""The effect of each action by phase; other actions have none."""
 
 
 class PausePanel(Panel):

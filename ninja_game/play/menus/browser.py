@@ -279,6 +279,8 @@ class Browser(ThumbnailScreen):
 
 
 class LevelChoice(Browser):
+    """The level browser of the editors: ``choose`` gets the level to open."""
+
     title = "Open a level"
 
     def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:

@@ -17,8 +17,8 @@ from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
 from ninja_game.play.menus.problems import file_problems, problems_button
 from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
+from ninja_game.player.episode_playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
 from ninja_game.runtime import in_page_or_not
 from ninja_game.ui.input.bindings import InputEvent
@@ -294,7 +294,8 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _draw_preview(self, surface: pygame.Surface, theme: Theme) -> None:
         """The pack as its maker presents it: name, author, comment, picture."""
-        faint, index = theme.palette.faint, self.pack.pack.index if self.pack.pack else None
+        faint = theme.palette.faint
+        index = self.pack.pack.index if self.pack.pack else None
         name, by = (index.name, index.byline) if index else (self.pack.name, "")
         theme.text(surface, shown_text(name), _LEFT, 58, size=20, bold=True, width=_WIDE)
         theme.text(surface, shown_text(by), _LEFT, 84, size=11, width=_WIDE)

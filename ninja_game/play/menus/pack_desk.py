@@ -41,7 +41,7 @@ class PackDesk(ThumbnailScreen):
         self.pack: EpisodeSet | None = None  #: the shown one
         self.own_packs: list[EpisodeSet] = []
         self.sets: list[EpisodeSet] = []  #: all packs, and the game's own levels
-        self.tray_key = "none"  #: what is at the right: "none" (levels in no episode), "yours", or the key of a pack
+        self.tray_key = "none"  #: the list at the right: "none" (levels in no episode), "yours", or the key of a pack
         self.moving: PackCell | None = None  #: the cell that gets a new place
         self.new_path: Path | None = None  #: a new pack, to be shown
         self.pack_choice: Widget | None = None
@@ -157,6 +157,20 @@ class PackDesk(ThumbnailScreen):
         """Show what can be done with a cell, or with the pack."""
         raise NotImplementedError
 
+    def _open_cell(self, cell: PackCell) -> None:
+        """Edit a level; of several levels, or of another cell, show what can be done."""
+        if cell.level and not self.moving and self.levels_with(cell.level) == [cell.level]:
+            self.edit_level(cell.level)
+        else:
+            self.choose(cell)
+
+    def edit_level(self, level: Entry) -> None:
+        edit = partial(self.edit, level, None)
+        if Path(level.named.file).parent == self.path:
+            self.change_pack(edit, "Edit")
+        else:
+            edit()
+
     def ask_text_for(self, title: str, text: str, action: Callable[[str], object], needed: str = "") -> None:
         """Ask for a text, and change the pack with it. ``needed``: a notice where none is typed; then ask again."""
         step = shown_text(title.partition(":")[0])
@@ -267,9 +281,10 @@ class PackDesk(ThumbnailScreen):
             raise NinjaGameError("that pack cannot be changed: it is the game's own, or a zip")
         names = packs.bring([level.named for level in levels], target, self.folder, copy=copy)
         if came := [level for level in levels if copy or Path(level.named.file).parent != target]:
-            done = "Copied" if Path(came[0].named.file).exists() else "Moved"
+            copied = Path(came[0].named.file).exists()
             source = {YOURS: "your folder", GAME: "the game"}.get(came[0].source, shown_text(came[0].source))
-            self.app.notify(f"{done} {called(came)} from {source}. {_BACK}")
+            what = f"{'Copied' if copied else 'Moved'} {called(came)} from {source}"
+            self.app.notify(f"{what}{'' if copied else '; Ctrl copies instead'}. {_BACK}")
         if (target / INDEX).is_file():
             number = goal.episode.number if goal and goal.episode else None
             if goal and number is None:
@@ -302,13 +317,16 @@ class PackDesk(ThumbnailScreen):
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
             x, y = self.theme.canvas.logical(event.pos)
             if self.pointer is None:
-                dragged.release()
+                if dragged.release():
+                    self._open_cell(dragged.chosen)
             elif (index := self.shelves.at(x, y)) is not None:
                 self.pointer = (x, y)
                 self.drop(self.shelves.cells[index], after=self._is_after(index))
             elif self.tray.contains(x, y):
                 self.drop(None)
-            self.moving, self.pointer = (self.moving if self.pointer is None else None), None
+            if self.pointer is not None:
+                self.moving = None
+            self.pointer = None
             self.redraw = True
 
     def leave(self) -> None:
@@ -318,7 +336,8 @@ class PackDesk(ThumbnailScreen):
             self.packer.drop_notices()
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
-        landing, level = self._landing(), self.moving.level if self.moving else None
+        landing = self._landing()
+        level = self.moving.level if self.moving else None
         lifted = self.levels_with(level) if level and self.pointer else []
         self.shelves.lifted = self.tray.lifted = {level.named.file for level in lifted}
         self.shelves.gap = landing[0] + landing[1] if landing and self.pointer else 0

@@ -94,7 +94,7 @@ def level_menu(desk: PackDesk, cell: PackCell) -> None:
     if level is None:
         return
     file, levels = Path(level.named.file), desk.levels_with(level)
-    rename, edit = partial(packs.rename_level, file), partial(desk.edit, level, None)
+    rename = partial(packs.rename_level, file)
     run, title = desk.player.catalogue.author_run(level), called(levels)
 
     def copy() -> None:
@@ -108,7 +108,7 @@ def level_menu(desk: PackDesk, cell: PackCell) -> None:
     rows: list[MenuRow] = []
     if len(levels) == 1:
         rows = [
-            ("Edit", partial(desk.change_pack, edit, "Edit") if file.parent == desk.path else edit, ""),
+            ("Edit", partial(desk.edit_level, level), ""),
             ("Play", play, ""),
             ("Watch the run", partial(watch_replays, desk.app, [run]) if run else None, "" if run else "None is known"),
         ]

@@ -125,7 +125,9 @@ def prepare_shown(desk: PackDesk) -> None:
     pack = desk.pack_now()
     if not (desk.pack and pack):
         return
-    start, index, version = partial(desk.packer.start, desk.path), pack.index, desk.packer.next_version(pack)
+    start = partial(desk.packer.start, desk.path)
+    index = pack.index
+    version = desk.packer.next_version(pack)
     follows = bool(index.version) and version != index.version
     if desk.pack.received or (index.is_signed and not follows and (index.comment or PARS in pack.files.names)):
         start()

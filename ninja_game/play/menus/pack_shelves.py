@@ -24,13 +24,15 @@ PULL = 6  # px that the mouse moves with its button down before a drag begins
 
 
 class PackCell(NamedTuple):
+    """A cell of the shelves: a level, a free place, or (``head``) the name of an episode before its levels."""
+
     episode: EpisodeIndex | None  #: None: in the row for a new episode
     level: Entry | None = None  #: None: a free place
     head: bool = False
 
 
 class Rack(ListView):
-    """Cells to drag: ``pull`` gets a cell and the mouse's place. A second click chooses the cell instead.
+    """Cells to drag: ``pull`` gets a cell and the mouse's place. A second click is for its screen (``release``).
 
     ``status``: of the levels' pack. ``marked``, ``lifted``: files of the marked and of the dragged levels. ``gap``: the
     cell from which on cells move aside, 0 for none.
@@ -73,17 +75,17 @@ class Rack(ListView):
             self.pull(self.cells[index], (x, y))
         return True
 
-    def release(self) -> None:
-        """The button is released without a drag."""
-        if self._again:
-            self.choose(self.index)
+    def release(self) -> bool:
+        """The button is released without a drag; whether that is a second click. The next one is a first one again."""
+        self._clicked = -1 if self._again else self._clicked
+        return self._again
 
     @property
     def chosen(self) -> PackCell:
         return self.cells[self.index] if self.cells else PackCell(None)
 
     def shift(self, index: int) -> float:
-        """How far a cell moves aside, px."""
+        """The distance by which a cell moves aside, px."""
         line, first = divmod(self.gap, self.columns)
         return _GAP if 0 < first <= index % self.columns and index // self.columns == line else 0.0
 

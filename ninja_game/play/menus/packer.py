@@ -15,7 +15,6 @@ from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepa
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, file_stem, shown_text
 from ninja_game.files.user_folder import EXPORTS, short_path
-from ninja_game.files.writing import write_atomically
 from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, EpisodeSet
@@ -40,8 +39,8 @@ class Packer(Aside):
         self.path = Path()  #: the pack that is or was made ready
         self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
-        self._known: dict[Path, set[tuple[str, str]]] = {}  #: by pack the problems not asked about: file and code
-        self._asks_first = True  #: whether what is wrong is asked about before the work
+        self._known: dict[Path, set[tuple[str, str]]] = {}  #: accepted problems (file, code), by pack
+        self._asks_first = True  #: whether problems are asked about before the work
         self._watching: tuple[Screen, Path | None] | None = None  #: the desk, and the pack that it shows
         self.obstacles: Obstacles = {}
         self.steps = Steps(app.player.folder)  #: changes made at the desk
@@ -85,7 +84,7 @@ class Packer(Aside):
         self._known.setdefault(self.path, set()).update((odd.file, odd.code) for odd in problems)
 
     def news(self, problems: Sequence[PackFinding]) -> list[PackFinding]:
-        """Those of the problems with which the player has not gone on yet."""
+        """The problems that the player has not accepted yet."""
         return [odd for odd in problems if (odd.file, odd.code) not in self._known[self.path]]
 
     def search_longer(self, path: Path, missing: tuple[Level, str]) -> None:
@@ -148,8 +147,8 @@ class Packer(Aside):
         self._know(ready.problems)
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         title = f"{name} {ready.pack.index.version}".strip()
-        write, over = (lambda path: write_atomically(path, ready.zipped)), self._earlier(title, ready.pack)
-        self.saved = app.write_export(title, ".zip", write, first=1, over=over)
+        over = self._earlier(title, ready.pack)
+        self.saved = app.write_export(title, ".zip", ready.zipped, first=1, over=over)
         self._zipped, self._compared = ready.zipped, None
         notices = [app.notice]
         if ready.link and waited_for:
@@ -247,11 +246,12 @@ class PackStatus:
         return checked if checked and self.pack and checked.pack is self.pack.pack else None
 
     def to_do(self) -> str:
-        """What Make ready will do; "" for nothing."""
+        """The work that *Make ready* will do, in words; "" for none."""
         levels = self.pack.levels if self.pack else []
         states = [self.state(level) for level in levels]
         to_do = self.present.to_do if self.present else []
-        certify, gold = sum(map(states.count, NOT_CERTIFIED)), [finding.code for finding in to_do].count("no-gold-run")
+        certify = sum(map(states.count, NOT_CERTIFIED))
+        gold = [finding.code for finding in to_do].count("no-gold-run")
         work = {"certify": (certify, "level"), "measure": (certify + states.count("certified"), "medal time")}
         work["look for all gold in"] = gold, "level"
         parts = [f"{verb} {counted(*count)}" for verb, count in work.items() if count[0]]

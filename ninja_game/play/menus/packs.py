@@ -31,13 +31,13 @@ _NO_LEVELS = (
     "Make ready then certifies all, and gives you a zip and a link to share.",
 )
 
-_DRAG = "Drag a level or an episode; Enter or a second click: what can be done. Ctrl or Shift and a click: several"
+_DRAG = "Drag a level or an episode; a second click edits. Enter, or the right button: more. Ctrl or Shift: several"
 
-_MOVES = "Let go where it is to be; with Ctrl, a copy. The colours of a level go by its place in the pack"
+_MOVES = "Let go to move it there; with Ctrl it is copied. The colours of a level go by its place in the pack"
 
 
 class _ShownState(NamedTuple):
-    """What the screen shows that changes by itself."""
+    """The parts of the screen that change without an action of the player."""
 
     is_busy: bool = False
     obstacles: int = 0
@@ -47,6 +47,8 @@ class _ShownState(NamedTuple):
 
 
 class PackScreen(PackDesk):
+    """The screen of the player's packs (*Levels > Packs*): the desk, with its buttons, keys and menus."""
+
     foot_high = 552.0
     _shown = _ShownState()
 
@@ -193,7 +195,7 @@ class PackScreen(PackDesk):
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
 
     def _next_step(self) -> Sequence[str]:
-        """What to do next with the shown pack."""
+        """The next step for the shown pack, in words."""
         pack, status, packer = self.pack, self.status, self.packer
         if pack is None or not pack.levels:
             return _NO_LEVELS if pack else _NO_PACK

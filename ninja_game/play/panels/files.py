@@ -42,7 +42,7 @@ class FilesScreen(MenuScreen):
         self.list.fill(self.paths)
 
     def fitting(self, names: Sequence[str]) -> list[Path]:
-        """Which of the files with these names in the folder are listed."""
+        """The names, of files in the folder, that are listed."""
         return [self.folder / name for name in names]
 
     def open_file(self, path: Path) -> None:

@@ -238,7 +238,9 @@ class DemoRoom:
     def draw(self, surface: pygame.Surface) -> pygame.Rect:
         canvas = self.app.canvas
         if self._sheet is None or self._canvas is not canvas:
-            self._sheet, self._canvas, self._whole = pygame.Surface(surface.get_size()), canvas, True
+            self._sheet = pygame.Surface(surface.get_size())
+            self._canvas = canvas
+            self._whole = True
         self.view.draw(self._sheet, self.clock.fraction, whole=self._whole)
         self._whole = False
         x, y, w, h = WINDOW

@@ -237,7 +237,7 @@ class ReplaysScreen(MenuScreen):
 
 
 def _looks(row: ReplayRow) -> tuple[object, ...]:
-    """What tells one run in a file from another."""
+    """The words that tell a run of a file from its other runs."""
     return *row[:4], row.source.inputs if isinstance(row.source, Recording) else b""
 
 
@@ -292,16 +292,18 @@ _SIDE, _SIDE_WIDTH = 528, 228
 
 
 class RecordRow(NamedTuple):
-    """A record: title, an episode's clock or a level's time ("": not passed), its replays, whether it heads a group."""
+    """A record in the list."""
 
     text: str
-    score: str
-    replays: tuple[int, ...]
-    head: bool
-    when: str = ""
+    score: str = ""  #: an episode's clock or a level's time; "": not passed
+    replays: tuple[int, ...] = ()
+    when: str = ""  #: the day of the run
+    head: bool = False  #: whether it heads a group
 
 
 class RecordsScreen(MenuScreen):
+    """The player's bests, by episode and level; a click watches the run, and statistics stand beside the list."""
+
     title = "Records"
 
     def __init__(self, app: App) -> None:
@@ -323,7 +325,7 @@ class RecordsScreen(MenuScreen):
 
         def row(text: str, saved: SavedReplay) -> RecordRow:
             time = marks[saved.level].fastest if saved.level in marks else saved.final_tick
-            return RecordRow(text, f"{seconds_text(time)} s", (saved.id,), False, saved.made_at[:10])
+            return RecordRow(text, f"{seconds_text(time)} s", (saved.id,), saved.made_at[:10])
 
         rows = []
         listed = set()
@@ -332,14 +334,14 @@ class RecordsScreen(MenuScreen):
             best = records.episode_best(episode.key)
             text = f"{pack.key}{', e' if pack.key else 'E'}pisode {episode.code}: {episode.name}"
             clock = f"{seconds_text(best.score)} s left" if best else ""
-            rows.append(RecordRow(text, clock, best.replays if best else (), True))
+            rows.append(RecordRow(text, clock, best.replays if best else (), head=True))
             for entry in episode.levels:
                 listed.add(entry.digest)
                 saved = bests.get(entry.digest)
-                rows.append(row(entry.title, saved) if saved else RecordRow(entry.title, "", (), False))
+                rows.append(row(entry.title, saved) if saved else RecordRow(entry.title))
         others = [saved for digest, saved in bests.items() if digest not in listed]
         if others:
-            rows.append(RecordRow("Other levels", "", (), True))
+            rows.append(RecordRow("Other levels", head=True))
         others.sort(key=lambda saved: saved.name.casefold())
         return rows + [row(saved.name or "unnamed", saved) for saved in others]
 
@@ -384,9 +386,11 @@ class RecordsScreen(MenuScreen):
         played = self.player.statistics.played()
         hours, minutes = divmod(played.ticks * TICK_MS // 60_000, 60)
         lines = (
-            ("Tries", str(played.attempts)), ("Passes", str(played.passes)), ("Gold collected", str(played.gold)),
+            ("Tries", str(played.attempts)),
+            ("Passes", str(played.passes)),
+            ("Gold collected", str(played.gold)),
             ("Time played", (f"{hours} h " if hours else "") + f"{minutes} min"),
-        )  # fmt: skip
+        )
         for place, (name, number) in enumerate(lines):
             y = 364 + 22 * place
             theme.text(surface, name, _SIDE, y, size=11, colour=palette.faint)

@@ -43,6 +43,8 @@ def setting_choice(
 
 
 class SettingsScreen(ThumbnailScreen):
+    """All settings, by page. A change has effect at once."""
+
     title = "Settings"
     music = ""
 
@@ -163,8 +165,9 @@ class SettingsScreen(ThumbnailScreen):
 
     def _name_row(self) -> list[Widget]:
         x, y, w, h = self._area()
-        name, put = self.player.settings.name, lambda text: self.app.change_settings(name=text)
-        entry = TextEntry((x + 220, y, w - 220, h), "unnamed", name, put)
+        area = x + 220, y, w - 220, h
+        name = self.player.settings.name
+        entry = TextEntry(area, "unnamed", name, lambda text: self.app.change_settings(name=text))
         return [Label((x, y + 10, 212, 14), "Your name in replays"), entry]
 
     def _accessibility(self) -> list[Widget]:

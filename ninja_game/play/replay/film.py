@@ -49,14 +49,14 @@ class _StoppedError(Exception):
 
 @dataclass(frozen=True)
 class Film:
-    """What a film shows: a run, and others.
+    """The content of a film: a run, and others.
 
     Raises ArgumentError for a section that is empty or begins after the end, and for one without ``last`` in which the
     runs have more than MAX_PICTURES together.
     """
 
     run: Recording
-    size: tuple[int, int] = (528, 400)  #: of a run's picture, px
+    size: tuple[int, int] = (528, 400)  #: size of a run's picture, px
     speed: float = 1.0  #: 1: that of the game
     settings: Settings | None = None
     ghosts: tuple[Recording, ...] = ()  #: runs on the same level in the same picture
@@ -67,7 +67,7 @@ class Film:
     beside: tuple[Recording, ...] = ()  #: up to three more runs, each in a picture of its own
     splits: bool = False  #: show time and splits, and by how many ticks other runs are later
     gold: bool = False  #: splits of gold too
-    known_moments: range | None = None  #: its moments, if they are known
+    known_moments: range | None = None  #: the result of ``moments``, if it is known
 
     @property
     def whole_size(self) -> tuple[int, int]:
@@ -162,7 +162,8 @@ class _Panel:
 
 def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, str]]:
     """Tick and text of each split of a run: by how many ticks others are later (+) or earlier (-) there."""
-    texts, names = [], names_of([run.recording for run in (own, *others)])[1:]
+    texts = []
+    names = names_of([run.recording for run in (own, *others)])[1:]
     for split in own.splits:
         words = [split.name]
         for other, name in zip(others, names, strict=True):
@@ -241,7 +242,7 @@ _VIDEO: dict[str, tuple[str, dict[str, object]]] = {
     ".webm": ("libvpx-vp9", {"crf": "24", "b:v": "0", "deadline": "good", "cpu-used": "5"}),
     ".mp4": ("libx264", {"crf": "20"}),
 }
-"""By suffix a video's encoder and its options, for high quality."""
+"""A video's encoder and its options for high quality, by suffix."""
 
 
 def write_gif(

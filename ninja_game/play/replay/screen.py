@@ -47,7 +47,7 @@ class ReplayScreen(Screen):
     ``end`` is the last tick of the recording; seeking far ahead takes several turns.
     """
 
-    foot_high = 26.0  #: of its bar
+    foot_high = 26.0  #: height of the bar, logical px
 
     def __init__(
         self, app: App, runs: Sequence[Recording], colours: Sequence[int] = (), *, editable: bool = True
@@ -78,7 +78,9 @@ class ReplayScreen(Screen):
         self._way: tuple[int, int] | None = None
         self.playback = Playback(Simulation(run.level, body=run.body), inputs)
         self._scout: Playback | None = self.playback
-        self.end, self.outcome, self.length = len(inputs), "running", len(inputs) + SHOWN_AFTER_END
+        self.end = len(inputs)
+        self.outcome = "running"
+        self.length = len(inputs) + SHOWN_AFTER_END
         self._look_ahead(self._turn)
         if self._scout:
             self._scout = self.playback.beside()
@@ -118,7 +120,9 @@ class ReplayScreen(Screen):
     def _look_ahead(self, ticks: int) -> None:
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
-            self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + SHOWN_AFTER_END
+            self.end = end
+            self.outcome = self._scout.simulation.outcome
+            self.length = end + SHOWN_AFTER_END
             self._scout = None
             self.redraw = True
 

@@ -106,12 +106,14 @@ class SpanSearch:
             if self._cancelled.is_set():
                 return False
             # The first results are those of the run's own keys.
-            self._began, self.own = monotonic(), results[0] if results else None
+            self._began = monotonic()
+            self.own = results[0] if results else None
             if compiled_available() and self._options["memory"] != "plain":
                 from ninja_game.search.solve import compile_solver  # few searches are of a whole run
 
                 run_in_background(compile_solver, lambda _: None)
-        self.ticks_run, self.results = ticks, self._without_idle_keys(results, TIDYING_SECONDS)
+        self.ticks_run = ticks
+        self.results = self._without_idle_keys(results, TIDYING_SECONDS)
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())
 

@@ -69,9 +69,9 @@ class Formula:
     ``parts``: of one whose parts are joined by ``and``, each with its text.
     """
 
-    truth: bool
     value: Callable[[Scope], Any]
     margin: Callable[[Scope], Any]
+    truth: bool = True
     parts: tuple[tuple[str, Formula], ...] = ()
 
 
@@ -142,7 +142,7 @@ class _Reader:
                     return replace(reduce(_AND if both else _OR, facts), parts=named)
                 case ast.UnaryOp(ast.Not(), part):
                     fact = self.truth(part)
-                    return Formula(True, lambda view: 1.0 - fact.value(view), lambda view: -fact.margin(view))
+                    return Formula(lambda view: 1.0 - fact.value(view), lambda view: -fact.margin(view))
                 case ast.UnaryOp(ast.USub(), part):
                     value = self.number(part)
                     return _number(lambda view: -value(view))
@@ -203,26 +203,24 @@ class _Reader:
             far = view[name + FAR](*(number(view) for number in numbers)) if name + FAR in view else UNTRUE
             return np.where(value(view) > 0, 0.0, far)
 
-        return Formula(True, value, margin)
+        return Formula(value, margin)
 
 
 def _number(value: Callable[[Scope], Any]) -> Formula:
-    return Formula(False, value, value)
+    return Formula(value, value, truth=False)
 
 
 def _comparison(
     a: Callable[[Scope], Any], b: Callable[[Scope], Any], compare: Callable[..., Any], margin: Callable[[Any, Any], Any]
 ) -> Formula:
     return Formula(
-        True, lambda view: np.asarray(compare(a(view), b(view)), np.float64), lambda view: margin(a(view), b(view))
+        lambda view: np.asarray(compare(a(view), b(view)), np.float64), lambda view: margin(a(view), b(view))
     )
 
 
 def _joined(join: Callable[..., Any], left: Formula, right: Formula) -> Formula:
     return Formula(
-        True,
-        lambda view: join(left.value(view), right.value(view)),
-        lambda view: join(left.margin(view), right.margin(view)),
+        lambda view: join(left.value(view), right.value(view)), lambda view: join(left.margin(view), right.margin(view))
     )
 
 

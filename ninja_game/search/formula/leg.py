@@ -34,7 +34,7 @@ class LegSearch:
     def __init__(self, task: SpanTask, target: int, seed: int) -> None:
         self.task = task
         start = open_start(task.level, box=task.body == "box")
-        heuristics = Heuristics(start.levels, start.worlds)
+        heuristics = Heuristics(start.maps, start.worlds)
         self._search = Search(start, heuristics, nodes=LEG_NODES)
         compiled(play_known)(start, known_run(task.first, task.inputs[: task.first]), heuristics.slots, task.first, 0)
         root = self._search.checkpoint(None, b"")
@@ -74,7 +74,7 @@ class OtherRoutes:
         self.task, self._turn = task, 0
         self._random = np.random.default_rng(seed)
         start = open_start(task.level, box=task.body == "box")
-        self._searches = SpanSearches(start, Heuristics(start.levels, start.worlds), gold=0)
+        self._searches = SpanSearches(start, Heuristics(start.maps, start.worlds), gold=0)
         places = run_level(task.level, task.inputs[: task.first], body=task.body).positions
         self._searches.search(0, 1, draw_settings(self._random), seed=0, ticks=1, spend=lambda _: True)
         self._joins: list[tuple[bytes, int]] = []  #: runs to the exit, and their ticks at which ours joins them

@@ -94,7 +94,7 @@ class SpanResult:
 
     score: float
     ticks: int
-    keys: Keys = field(compare=False, repr=False)  #: of the span up to the goal
+    keys: Keys = field(compare=False, repr=False)  #: keys of the span up to the goal
     inputs: bytes = field(compare=False, repr=False, default=b"")
     gold: int = field(compare=False, default=0)
     end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
@@ -151,7 +151,7 @@ def _match_target(goal: str) -> re.Match[str] | None:
 
 
 def _short_text(goal: str, margin: float) -> str:
-    """How far it is to a goal, or a part of one."""
+    """The distance to a goal, or to a part of one."""
     if margin == UNREACHABLE:
         return "no way"
     return f"{-margin - 1.0:.0f} px" if _match_target(goal) else f"{-margin:.3g} short"
@@ -220,7 +220,7 @@ class SpanWorlds:
         ) & np.uint8(KEYS_DOWN)
 
     def measured(self) -> tuple[NDArray[np.bool_], FormulaValues, FormulaValues]:
-        """For all worlds as they are now: whether they are at the goal, their margin, their score."""
+        """Whether the worlds are at the goal now, their margins, their scores: an array each."""
         with np.errstate(all="ignore"):
             at_goal = np.broadcast_to(self.goal.value(self.view) > 0, (self.batch.count,))
             margin = np.nan_to_num(np.broadcast_to(self.goal.margin(self.view), at_goal.shape), nan=-np.inf)
@@ -240,9 +240,8 @@ class SpanWorlds:
         run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
         # The path of a miss is unknown: a beam continues from copies of other worlds.
         path = self._paths[: ticks if missed_by is None else 0, index].copy()
-        return SpanResult(
-            score, ticks, keys.copy(), run, int(self.batch.gold[index]), tuple(end), True, missed_by, path
-        )
+        gold = int(self.batch.gold[index])
+        return SpanResult(score, ticks, keys.copy(), run, gold, tuple(end), missed_by=missed_by, path=path)
 
     def note_miss(self, margins: FormulaValues, keys: Keys, ticks: int) -> None:
         """Keep the living world nearest to the goal after ``ticks`` ticks of the span, if none was nearer before.

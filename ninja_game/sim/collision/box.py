@@ -34,18 +34,18 @@ BOX_HALF = RADIUS  # half width and half height of the ninja as a box, px
 
 
 @fast
-def collide_box(level: TileMap, w: World) -> None:
+def collide_box(tiles: TileMap, w: World) -> None:
     """Push the ninja's box out of the tiles and solid edges that it touches."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
     if cell == 0:
         return
-    tiles = level.tiles
+    ids = tiles.ids
     edges = w.edges
     cx = CENTRE_X[cell]
     cy = CENTRE_Y[cell]
-    if tiles[cell]:
-        collide_own_tile(w, tiles[cell], cx, cy)
+    if ids[cell]:
+        collide_own_tile(w, ids[cell], cx, cy)
 
     dy = n.y - cy
     oy = (abs(dy) + BOX_HALF) - HALF
@@ -59,7 +59,7 @@ def collide_box(level: TileMap, w: World) -> None:
             kind_v = SIDE_CONTACT
         elif edge_v != OFF:
             neighbour = cell - STRIDE if side_v == UP else cell + STRIDE
-            kind_v = collide_tile(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], 0.0, oy * hy)
+            kind_v = collide_tile(w, ids[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], 0.0, oy * hy)
 
     dx = n.x - cx
     ox = (abs(dx) + BOX_HALF) - HALF
@@ -73,15 +73,15 @@ def collide_box(level: TileMap, w: World) -> None:
             kind_h = SIDE_CONTACT
         elif edge_h != OFF:
             neighbour = cell - 1 if side_h == LEFT else cell + 1
-            kind_h = collide_tile(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox * hx, 0.0)
+            kind_h = collide_tile(w, ids[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox * hx, 0.0)
 
     if oy > 0.0 and ox > 0.0 and kind_v != SIDE_CONTACT and kind_h != SIDE_CONTACT:
-        collide_corner(level, w, cell, edge_h, edge_v, ox * hx, hx, oy * hy, hy)
+        collide_corner(tiles, w, cell, edge_h, edge_v, ox * hx, hx, oy * hy, hy)
 
 
 @fast
 def collide_corner(
-    level: TileMap, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
+    tiles: TileMap, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
 ) -> None:
     """Collide with the cell at the corner. ``push_h``, ``push_v``: how far a solid edge there pushes the box, px.
 
@@ -122,7 +122,7 @@ def collide_corner(
         return
     if edge_h == OFF and edge_v == OFF:
         return
-    if collide_tile(w, level.tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], a, b) == NO_CONTACT:
+    if collide_tile(w, tiles.ids[corner], CENTRE_X[corner], CENTRE_Y[corner], a, b) == NO_CONTACT:
         if edge_v == SOLID:
             push_from_tile(w, 0.0, push_v, 0.0, hy)
         elif edge_h == SOLID:

@@ -18,18 +18,18 @@ from ninja_game.sim.schema.world_fields import TileMap, World
 
 
 @fast
-def collide_circle(level: TileMap, w: World) -> None:
+def collide_circle(tiles: TileMap, w: World) -> None:
     """Push the ninja's circle out of the tiles and solid edges that it touches."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
     if cell == 0:
         return
-    tiles = level.tiles
+    ids = tiles.ids
     edges = w.edges
     cx = CENTRE_X[cell]
     cy = CENTRE_Y[cell]
-    if tiles[cell]:
-        collide_own_tile(w, tiles[cell], cx, cy)
+    if ids[cell]:
+        collide_own_tile(w, ids[cell], cx, cy)
 
     dy = n.y - cy
     oy = (abs(dy) + RADIUS) - HALF
@@ -46,7 +46,7 @@ def collide_circle(level: TileMap, w: World) -> None:
             kind_v = SIDE_CONTACT
         elif edge != OFF:
             neighbour = cell - STRIDE if side_v == UP else cell + STRIDE
-            kind_v = collide_vertical(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], oy, hy)
+            kind_v = collide_vertical(w, ids[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], oy, hy)
 
     dx = n.x - cx
     ox = (abs(dx) + RADIUS) - HALF
@@ -63,7 +63,7 @@ def collide_circle(level: TileMap, w: World) -> None:
             kind_h = SIDE_CONTACT
         elif edge != OFF:
             neighbour = cell - 1 if side_h == LEFT else cell + 1
-            kind_h = collide_horizontal(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox, hx)
+            kind_h = collide_horizontal(w, ids[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox, hx)
 
     if oy > 0.0 and ox > 0.0 and kind_v != SIDE_CONTACT and kind_h != SIDE_CONTACT:
         beside = cell - 1 if side_h == LEFT else cell + 1
@@ -76,4 +76,4 @@ def collide_circle(level: TileMap, w: World) -> None:
             cy = CENTRE_Y[corner]
             push_from_corner(w, cx + hx * HALF, cy + hy * HALF, hx / ROOT2, hy / ROOT2)
         elif edge_h != OFF or edge_v != OFF:
-            collide_diagonal(w, tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], hx, hy)
+            collide_diagonal(w, ids[corner], CENTRE_X[corner], CENTRE_Y[corner], hx, hy)

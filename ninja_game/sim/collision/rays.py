@@ -29,7 +29,7 @@ from ninja_game.sim.schema.world_fields import TileMap, World
 
 
 @fast
-def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
+def cast_ray(tiles: TileMap, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
     """Follow a ray from (x, y) along the unit vector (dx, dy) until a tile or a solid edge stops it.
 
     Gives (stopped, x, y) with the stop point in px; (0, 0) for a ray that runs off the grid.
@@ -57,7 +57,7 @@ def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float)
     side_y = UP if dy < 0.0 else DOWN
     step_x = -1 if dx < 0.0 else 1
     step_y = -STRIDE if dy < 0.0 else STRIDE
-    hit, hit_x, hit_y = ray_tile(level.tiles[cell], CENTRE_X[cell], CENTRE_Y[cell], x, y, dx, dy)
+    hit, hit_x, hit_y = ray_tile(tiles.ids[cell], CENTRE_X[cell], CENTRE_Y[cell], x, y, dx, dy)
     if hit:
         return True, hit_x, hit_y
     while EXISTS[cell]:
@@ -77,7 +77,7 @@ def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float)
             if edge == SOLID:
                 return True, crossing_x, crossing_y
             hit, hit_x, hit_y = ray_tile(
-                level.tiles[cell], CENTRE_X[cell], CENTRE_Y[cell], crossing_x, crossing_y, dx, dy
+                tiles.ids[cell], CENTRE_X[cell], CENTRE_Y[cell], crossing_x, crossing_y, dx, dy
             )
             if hit:
                 return True, hit_x, hit_y
@@ -85,14 +85,14 @@ def cast_ray(level: TileMap, w: World, x: float, y: float, dx: float, dy: float)
 
 
 @fast
-def ray_tiles(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
+def ray_tiles(tiles: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
     """Cast a ray from (x, y) through (to_x, to_y) against tiles and edges: (stopped, stop x, stop y), px."""
     vx = to_x - x
     vy = to_y - y
     length = sqrt(vx * vx + vy * vy)
     if length == 0.0:
         return False, 0.0, 0.0
-    return cast_ray(level, w, x, y, vx / length, vy / length)
+    return cast_ray(tiles, w, x, y, vx / length, vy / length)
 
 
 @fast
@@ -121,7 +121,7 @@ def ray_circle(
 
 
 @fast
-def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
+def sees(tiles: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
     """Whether a ray from (x, y) through (to_x, to_y) meets the ninja before any tile: (seen, hit x, hit y), px."""
     n = w.ninja
     vx = to_x - x
@@ -134,7 +134,7 @@ def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float)
     hit, hit_x, hit_y = ray_circle(x, y, dx, dy, n.x, n.y, RADIUS)
     if not hit:
         return False, 0.0, 0.0
-    stopped, stop_x, stop_y = cast_ray(level, w, x, y, dx, dy)
+    stopped, stop_x, stop_y = cast_ray(tiles, w, x, y, dx, dy)
     if stopped:
         alpha = (x - hit_x) * dx + (y - hit_y) * dy
         beta = (x - stop_x) * dx + (y - stop_y) * dy
@@ -144,10 +144,10 @@ def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float)
 
 
 @fast
-def solid_at(level: TileMap, x: float, y: float) -> bool:
+def solid_at(tiles: TileMap, x: float, y: float) -> bool:
     """Whether a point is in the solid part of its cell's tile, boundary included. Edges and doors do not count."""
     cell = cell_at(x, y)
-    tile = level.tiles[cell]
+    tile = tiles.ids[cell]
     if tile == 0:
         return False
     shape = SHAPE[tile]

@@ -111,19 +111,19 @@ for _row in range(GRID_ROWS):
 
 
 @fast
-def set_edges(level: TileMap, w: World) -> None:
+def set_edges(tiles: TileMap, w: World) -> None:
     """Derive all edge states from the tiles, as the original does after loading a map."""
-    tiles = level.tiles
+    ids = tiles.ids
     edges = w.edges
     for row in range(1, GRID_ROWS + 1):
         start = row * STRIDE + 1
         for cell in range(start, start + GRID_COLUMNS):
-            tile = tiles[cell]
+            tile = ids[cell]
             for side in range(4):
                 neighbour = cell + NEIGHBOUR_OFFSET[side]
                 if EXISTS[neighbour]:
                     # The neighbour's touching face is on the opposite side: 0 <-> 2, 1 <-> 3.
-                    touching = FACE[4 * tiles[neighbour] + (side ^ 2)]
+                    touching = FACE[4 * ids[neighbour] + (side ^ 2)]
                     edges[4 * cell + side] = EDGE_OF_FACES[3 * FACE[4 * tile + side] + touching]
                 else:
                     edges[4 * cell + side] = INTERESTING

@@ -19,7 +19,7 @@ from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 
 @fast
-def tick_ninja(level: TileMap, w: World, keys: int) -> None:
+def tick_ninja(tiles: TileMap, w: World, keys: int) -> None:
     """Advance the living or celebrating ninja by one tick. ``keys``: a sum of ``Input`` flags."""
     n = w.ninja
     x = n.x
@@ -42,13 +42,13 @@ def tick_ninja(level: TileMap, w: World, keys: int) -> None:
     if not w.round_over:
         touch_objects(w)
     if n.box:
-        collide_box(level, w)
+        collide_box(tiles, w)
     else:
-        collide_circle(level, w)
+        collide_circle(tiles, w)
     if n.floor_contacts:
         evaluate_floor(w, n)
     if n.in_air and not n.near_wall:
-        probe_walls(level, n)
+        probe_walls(tiles, n)
     n.cell = cell_at(n.x, n.y)
 
     if n.state == CELEBRATING:
@@ -93,13 +93,13 @@ def evaluate_floor(w: World, n: Ninja) -> None:
 
 
 @fast
-def probe_walls(level: TileMap, n: Ninja) -> None:
+def probe_walls(tiles: TileMap, n: Ninja) -> None:
     """Look for a tile, not a door or object, right beside a ninja that is in the air without a wall contact."""
-    if solid_at(level, n.x + WALL_PROBE, n.y):
+    if solid_at(tiles, n.x + WALL_PROBE, n.y):
         n.near_wall = 1
         n.wall_x = -1.0
         n.wall_y = 0.0
-    elif solid_at(level, n.x - WALL_PROBE, n.y):
+    elif solid_at(tiles, n.x - WALL_PROBE, n.y):
         n.near_wall = 1
         n.wall_x = 1.0
         n.wall_y = 0.0

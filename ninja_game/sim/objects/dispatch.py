@@ -47,7 +47,7 @@ NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1
 
 
 @fast
-def create(level: TileMap, w: World, o: Object, values: Sequence[float]) -> None:
+def create(tiles: TileMap, w: World, o: Object, values: Sequence[float]) -> None:
     """Create an object at load; its kind and place are set already. ``values``: the nine values of its record."""
     kind = o.kind
     if kind == GOLD:
@@ -69,9 +69,9 @@ def create(level: TileMap, w: World, o: Object, values: Sequence[float]) -> None
     elif kind == DOOR:
         create_door(w, o, values)
     elif kind == THWUMP:
-        create_thwump(level, w, o, values[2])
+        create_thwump(tiles, w, o, values[2])
     elif kind == FLOOR_GUARD:
-        create_guard(level, w, o)
+        create_guard(tiles, w, o)
     elif kind == DRONE:
         create_drone(w, o, values)
 
@@ -125,7 +125,7 @@ def touch(w: World, o: Object) -> None:
 
 
 @fast
-def update_objects(level: TileMap, w: World) -> None:
+def update_objects(tiles: TileMap, w: World) -> None:
     """Update all objects of the set. The cursor is in the world: an object that leaves the set meanwhile moves it."""
     slot = w.update_head
     while slot:
@@ -136,15 +136,15 @@ def update_objects(level: TileMap, w: World) -> None:
             if o.routine == DRONE_MOVE:
                 move_drone(w, o)
             else:
-                update_weapon(level, w, o)
+                update_weapon(tiles, w, o)
         elif kind == THWUMP:
             update_thwump(w, o)
         elif kind == FLOOR_GUARD:
             update_guard(w, o)
         elif kind == TURRET:
-            update_turret(level, w, o)
+            update_turret(tiles, w, o)
         elif kind == LAUNCHER:
-            update_launcher(level, w, o)
+            update_launcher(tiles, w, o)
         elif kind == BOUNCE_BLOCK:
             update_block(o)
         elif kind == DOOR:
@@ -153,14 +153,14 @@ def update_objects(level: TileMap, w: World) -> None:
 
 
 @fast
-def think(level: TileMap, w: World, o: Object) -> None:
+def think(tiles: TileMap, w: World, o: Object) -> None:
     """Run the think of one object."""
     kind = o.kind
     if kind == DRONE:
-        think_drone(level, w, o)
+        think_drone(tiles, w, o)
     elif kind == TURRET:
-        think_turret(level, w, o)
+        think_turret(tiles, w, o)
     elif kind == LAUNCHER:
-        think_launcher(level, w, o)
+        think_launcher(tiles, w, o)
     elif kind == BOUNCE_BLOCK:
         think_block(w, o)

@@ -49,12 +49,12 @@ def touch_drone(w: World, o: Drone) -> None:
 
 
 @fast
-def think_drone(level: TileMap, w: World, o: Drone) -> None:
+def think_drone(tiles: TileMap, w: World, o: Drone) -> None:
     """Stop a weapon drone that sees the ninja and prepare to fire."""
     if w.round_over:
         return
     n = w.ninja
-    hit, hit_x, hit_y = sees(level, w, o.x, o.y, n.x, n.y)
+    hit, hit_x, hit_y = sees(tiles, w, o.x, o.y, n.x, n.y)
     if not hit:
         return
     end_think(w, o)
@@ -62,13 +62,13 @@ def think_drone(level: TileMap, w: World, o: Drone) -> None:
     o.routine = DRONE_PRE_FIRE
     if o.weapon == WEAPON_LASER:
         emit(w, LASER_CHARGING, o.slot, o.x, o.y, 0.0, 0.0)
-        aim_beam(level, w, o, hit_x, hit_y)
+        aim_beam(tiles, w, o, hit_x, hit_y)
     else:
         emit(w, CHAINGUN_CHARGING, o.slot, o.x, o.y, 0.0, 0.0)
 
 
 @fast
-def update_weapon(level: TileMap, w: World, o: Drone) -> None:
+def update_weapon(tiles: TileMap, w: World, o: Drone) -> None:
     """Continue with the weapon of a drone that stands: prepare, fire or cool down."""
     routine = o.routine
     if routine == DRONE_POST_FIRE:
@@ -86,13 +86,13 @@ def update_weapon(level: TileMap, w: World, o: Drone) -> None:
         if o.counter >= CHAINGUN_PREPARE:
             open_fire(w, o)
     else:
-        shoot(level, w, o)
+        shoot(tiles, w, o)
 
 
 @fast
-def aim_beam(level: TileMap, w: World, o: Drone, hit_x: float, hit_y: float) -> None:
+def aim_beam(tiles: TileMap, w: World, o: Drone, hit_x: float, hit_y: float) -> None:
     """Fix the beam when the drone sees the ninja: a door that closes later does not shorten it."""
-    stopped, end_x, end_y = ray_tiles(level, w, o.x, o.y, hit_x, hit_y)
+    stopped, end_x, end_y = ray_tiles(tiles, w, o.x, o.y, hit_x, hit_y)
     if stopped:
         o.end_x = end_x
         o.end_y = end_y
@@ -169,7 +169,7 @@ def open_fire(w: World, o: Drone) -> None:
 
 
 @fast
-def shoot(level: TileMap, w: World, o: Drone) -> None:
+def shoot(tiles: TileMap, w: World, o: Drone) -> None:
     """Fire a shot every sixth tick."""
     o.timer += 1
     if o.timer < CHAINGUN_PAUSE:
@@ -181,7 +181,7 @@ def shoot(level: TileMap, w: World, o: Drone) -> None:
     s = (o.shot / o.last_shot - 0.5) * o.spread
     gx = o.aim_x + s * o.sweep_x
     gy = o.aim_y + s * o.sweep_y
-    hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.x + gx, o.y + gy)
+    hit, hit_x, hit_y = sees(tiles, w, o.x, o.y, o.x + gx, o.y + gy)
     emit(w, CHAINGUN_SHOT, o.slot, o.x, o.y, gx, gy)
     if hit:
         stop_firing(w, o)

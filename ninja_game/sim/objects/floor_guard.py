@@ -16,13 +16,13 @@ from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
 
 @fast
-def is_empty_for_guard(level: TileMap, cell: int) -> bool:
+def is_empty_for_guard(tiles: TileMap, cell: int) -> bool:
     """Whether a floor guard's scan passes a cell: tile ids above 0 stop it, a malformed id below 0 does not."""
-    return level.tiles[cell] == 0 or level.tiles[cell] == UNDEFINED_ID
+    return tiles.ids[cell] == 0 or tiles.ids[cell] == UNDEFINED_ID
 
 
 @fast
-def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
+def create_guard(tiles: TileMap, w: World, o: FloorGuard) -> None:
     """Scan the corridor, with the floor edges as they are at this point of loading, and the sight range along the row.
 
     The original hangs while it loads a guard in the first or last column or outside the grid; here that guard is inert.
@@ -36,19 +36,19 @@ def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
     o.facing = 1.0
     o.y = CENTRE_Y[cell] + HALF - GUARD_RADIUS
     scan = cell + 1
-    while is_empty_for_guard(level, scan) and w.edges[4 * scan + DOWN] == SOLID:
+    while is_empty_for_guard(tiles, scan) and w.edges[4 * scan + DOWN] == SOLID:
         scan += 1
     o.high_x = CENTRE_X[scan] - HALF - GUARD_RADIUS
     scan = cell
-    while is_empty_for_guard(level, scan) and w.edges[4 * scan + DOWN] == SOLID:
+    while is_empty_for_guard(tiles, scan) and w.edges[4 * scan + DOWN] == SOLID:
         scan -= 1
     o.low_x = CENTRE_X[scan] + HALF + GUARD_RADIUS
     scan = cell + 1
-    while is_empty_for_guard(level, scan):
+    while is_empty_for_guard(tiles, scan):
         scan += 1
     o.high = COLUMN[scan - 1]
     scan = cell - 1
-    while is_empty_for_guard(level, scan):
+    while is_empty_for_guard(tiles, scan):
         scan -= 1
     o.low = COLUMN[scan + 1]
 

@@ -41,10 +41,10 @@ def create_launcher(w: World, o: Launcher) -> None:
 
 
 @fast
-def think_launcher(level: TileMap, w: World, o: Launcher) -> None:
+def think_launcher(tiles: TileMap, w: World, o: Launcher) -> None:
     """Prepare a rocket when the ninja is in sight."""
     n = w.ninja
-    if sees(level, w, o.base_x, o.base_y, n.x, n.y)[0]:
+    if sees(tiles, w, o.base_x, o.base_y, n.x, n.y)[0]:
         end_think(w, o)
         start_update(w, o)
         o.counter = 0
@@ -52,14 +52,14 @@ def think_launcher(level: TileMap, w: World, o: Launcher) -> None:
 
 
 @fast
-def update_launcher(level: TileMap, w: World, o: Launcher) -> None:
+def update_launcher(tiles: TileMap, w: World, o: Launcher) -> None:
     """Count down to the launch, then fly."""
     if o.routine == LAUNCHER_PREPARE:
         o.counter += 1
         if o.counter >= ROCKET_PREPARE:
             fire_rocket(w, o)
     elif o.routine == LAUNCHER_FLIGHT:
-        fly(level, w, o)
+        fly(tiles, w, o)
 
 
 @fast
@@ -82,7 +82,7 @@ def fire_rocket(w: World, o: Launcher) -> None:
 
 
 @fast
-def fly(level: TileMap, w: World, o: Launcher) -> None:
+def fly(tiles: TileMap, w: World, o: Launcher) -> None:
     """Accelerate, move, explode in a tile or on a solid edge, and turn towards the ninja's next place."""
     if o.speed < ROCKET_SPEED:
         o.acceleration = o.acceleration * ROCKET_GROWTH
@@ -91,7 +91,7 @@ def fly(level: TileMap, w: World, o: Launcher) -> None:
         o.speed = ROCKET_SPEED
     o.x = o.x + o.speed * o.heading_x
     o.y = o.y + o.speed * o.heading_y
-    if solid_at(level, o.x, o.y):
+    if solid_at(tiles, o.x, o.y):
         explode(w, o)
         return
     old = o.cell

@@ -27,7 +27,7 @@ from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
 
 
 @fast
-def create_thwump(level: TileMap, w: World, o: Thwump, direction: float) -> None:
+def create_thwump(tiles: TileMap, w: World, o: Thwump, direction: float) -> None:
     """Scan the free cells ahead: the goal is 9 px beyond the centre of the last one. Edges and doors are ignored."""
     grid_insert(w, o)
     start_update(w, o)
@@ -48,7 +48,7 @@ def create_thwump(level: TileMap, w: World, o: Thwump, direction: float) -> None
             sign = o.face_x + o.face_y
             if cell:
                 ahead = cell + NEIGHBOUR_OFFSET[side]
-                while EXISTS[ahead] and level.tiles[ahead] == 0:
+                while EXISTS[ahead] and tiles.ids[ahead] == 0:
                     goal = goal + sign * CELL
                     ahead += NEIGHBOUR_OFFSET[side]
             goal = goal + sign * THWUMP_HALF

@@ -46,15 +46,15 @@ def create_turret(w: World, o: Turret) -> None:
 
 
 @fast
-def sees_ninja(level: TileMap, w: World, o: Turret) -> bool:
+def sees_ninja(tiles: TileMap, w: World, o: Turret) -> bool:
     """Whether the way from the turret to the ninja is free."""
-    return sees(level, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]
+    return sees(tiles, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]
 
 
 @fast
-def think_turret(level: TileMap, w: World, o: Turret) -> None:
+def think_turret(tiles: TileMap, w: World, o: Turret) -> None:
     """Waiting: start targeting when the ninja is in sight. Targeting: stop when it is out of sight."""
-    seen = sees_ninja(level, w, o)
+    seen = sees_ninja(tiles, w, o)
     if o.think == TURRET_WAITING:
         if seen:
             o.aim_factor = AIM_FAR
@@ -82,20 +82,20 @@ def stop_targeting(w: World, o: Turret) -> None:
 
 
 @fast
-def update_turret(level: TileMap, w: World, o: Turret) -> None:
+def update_turret(tiles: TileMap, w: World, o: Turret) -> None:
     """Target; then stand still before the shot, and again after it."""
     if o.routine == TURRET_TARGET:
         target(w, o)
     elif o.routine == TURRET_PRE_FIRE:
         o.counter += 1
         if o.counter >= TURRET_DELAY:
-            if sees_ninja(level, w, o):
-                fire(level, w, o)
+            if sees_ninja(tiles, w, o):
+                fire(tiles, w, o)
             end_shot(w, o)
     elif o.routine == TURRET_POST_FIRE:
         o.counter += 1
         if o.counter >= TURRET_DELAY:
-            if sees_ninja(level, w, o):
+            if sees_ninja(tiles, w, o):
                 keep_targeting(w, o)
             else:
                 stop_targeting(w, o)
@@ -129,9 +129,9 @@ def target(w: World, o: Turret) -> None:
 
 
 @fast
-def fire(level: TileMap, w: World, o: Turret) -> None:
+def fire(tiles: TileMap, w: World, o: Turret) -> None:
     """Shoot through the crosshair: kills if that ray meets the ninja before any tile."""
-    hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.aim_x, o.aim_y)
+    hit, hit_x, hit_y = sees(tiles, w, o.x, o.y, o.aim_x, o.aim_y)
     emit(w, TURRET_FIRED, o.slot, o.x, o.y, o.aim_x - o.x, o.aim_y - o.y)
     if hit:
         dx = o.aim_x - o.x

@@ -26,7 +26,7 @@ EDGE_STATES = GRID_CELLS * 4
 class TileMap:
     """The part of a level that never changes during a run."""
 
-    tiles: Annotated[list[u1], GRID_CELLS]  #: tile id of each cell, by grid index
+    ids: Annotated[list[u1], GRID_CELLS]  #: tile id of each cell, by grid index
 
 
 @struct
@@ -98,4 +98,4 @@ class World:
     heads: Annotated[list[i2], GRID_CELLS]  #: first object of each cell's list, by grid index: slots, 0: none
     #: state of each cell's own sides (off, interesting, solid), at 4 times the grid index plus the direction
     edges: Annotated[list[u1], EDGE_STATES]
-    objects: Annotated[list[Object], CAPACITY]  #: by slot; 0 is nobody
+    objects: Annotated[list[Object], CAPACITY]  #: objects by slot; slot 0 is no object

@@ -39,15 +39,19 @@ NONE_YET = "No other run is open: Ctrl+O opens one"
 
 
 class OtherRuns:
+    """The commands about runs shown beside the one under edit: open, choose, and copy a part of one into it."""
+
     def __init__(self, editor: TasEditor) -> None:
         self.editor = editor
 
     def commands(self) -> Commands:
         return {
             "open_other": lambda: self.editor.app.push(OtherRunScreen(self.editor.app, self)),
-            "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
+            "next_other": self.next,
+            "splice": self.splice,
+            "splice_here": self.splice_here,
             "splice_start": self.splice_start,
-        }  # fmt: skip
+        }
 
     def open(self, recordings: Sequence[Recording]) -> None:
         """Show recordings beside the run, the first chosen. Raises ReplayError for another level or another body."""
@@ -164,7 +168,7 @@ class OtherRunScreen(ReplaysScreen):
         return [*super().build(), Button((538, 15, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
-        """Those of the same level, fastest first, those without an exit last."""
+        """The replays of the same level, fastest first, those without an exit last."""
         fitting = [row for row in rows if isinstance(row.source, Recording) or row.source.level == self._digest]
         return sorted(fitting, key=lambda row: (not row.good, _ticks(row)))
 
@@ -228,7 +232,7 @@ class RunFiles(FilesScreen):
         return [self.field, *super().build()]
 
     def fitting(self, names: Sequence[str]) -> list[Path]:
-        """Those with runs of the level, as far as that is quick."""
+        """The files with runs of the level; files that would take long to read are kept too."""
         end = thread_time() + LOOK_SECONDS
         return [path for path in super().fitting(names) if thread_time() > end or self._has_runs(path)]
 

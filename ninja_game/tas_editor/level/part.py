@@ -22,9 +22,9 @@ from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.other_runs import OtherRuns
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
-from ninja_game.tas_editor.tabs.values_tab import colour_of, proposal
+from ninja_game.tas_editor.tabs.values_tab import proposal
 from ninja_game.ui.input.bindings import InputEvent
-from ninja_game.ui.theme import Theme
+from ninja_game.ui.theme import Theme, plot_colour
 from ninja_game.view.overlays import OVERLAY_ACTIONS
 
 _REACH = 16.0  # px of the level within which the mouse points at an object
@@ -88,7 +88,7 @@ class LevelPart(TasPart):
         playing, taken = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
-            "ghosts": lambda: setattr(self.editor, "ghosts", not self.editor.ghosts),
+            "ghosts": self._switch_ghosts,
             "whole_level": self.picture.camera.show_all, **self.others.commands(),
             **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
@@ -100,6 +100,9 @@ class LevelPart(TasPart):
             "play": playing.toggle, "step": lambda: playing.step(1), "step_back": lambda: playing.step(-1),
             "take_over": taken.begin, **shared,
         }  # fmt: skip
+
+    def _switch_ghosts(self) -> None:
+        self.editor.ghosts = not self.editor.ghosts
 
     def meaning(self, event: InputEvent) -> str:
         return self.take_over.meaning(event) if self.take_over.on else TAS_COMMANDS.meaning(event)
@@ -209,7 +212,7 @@ class LevelPart(TasPart):
             self.picture.follow([])
             return []
         palette = self.editor.theme.palette
-        runs = [(run, colour_of(number, palette)) for number, run in enumerate(editor.others)]
+        runs = [(run, plot_colour(number, palette)) for number, run in enumerate(editor.others)]
         if editor.preview is not None:
             runs.append((editor.preview, palette.exit))
         before = editor.session.before

@@ -83,7 +83,8 @@ class LevelPaths:
             self._under.fill((0, 0, 0, 0), self._covered)
             drawn = []
             for path in paths:
-                shown, colour = path.trajectory.positions[path.first : path.last], shaded(path.colour, path.alpha)
+                shown = path.trajectory.positions[path.first : path.last]
+                colour = shaded(path.colour, path.alpha)
                 drawn.append(draw_path(self._under, self.canvas, shown, colour, self._px(_THIN)))
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)
@@ -111,7 +112,8 @@ class LevelPaths:
         if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
             self._present.fill((0, 0, 0, 0), self._present_covered)
             self._present_covered, known = pygame.Rect(0, 0, 0, 0), 0
-        colour, added = shaded(self.theme.palette.accent, FAINT), positions[max(0, known - 1) :]
+        colour = shaded(self.theme.palette.accent, FAINT)
+        added = positions[max(0, known - 1) :]
         rect = draw_path(self._present, self.canvas, added, colour, self._px(_THIN))
         self._present_covered = union_of([self._present_covered, rect])
         self._drawn = positions
@@ -152,7 +154,8 @@ class LevelPaths:
             return
         # The TAS editor fills its window: its logical px begin at the window's corner.
         scale = theme.canvas.scale
-        w, (width, height) = theme.width(text, LETTERS), surface.get_size()
+        w = theme.width(text, LETTERS)
+        width, height = surface.get_size()
         x = min(max(1.0, px[0] / scale + beside[0]), width / scale - w - 4)
         y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
         plate = theme.canvas.rect(x - 1.5, y - 0.5, w + 3, LETTERS + 2.5)

@@ -126,7 +126,8 @@ class LevelPicture:
                 self._context.canvas = self.camera.canvas(size)
             return before != self._seen
         self._context = OffscreenContext(size, settings)
-        self._context.audio_output, self._context.canvas = app.audio_output, self.camera.canvas(size)
+        self._context.audio_output = app.audio_output
+        self._context.canvas = self.camera.canvas(size)
         self.surface = pygame.Surface(size)
         self.view = LevelView(self._context, self.run, audible=False)
         self.view.overlays = self.overlays

@@ -16,8 +16,7 @@ from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.timeline import exit_distance
 from ninja_game.tas.tracks import InputTrack, first_different_index
 from ninja_game.tas_editor.editor import TasEditor
-from ninja_game.tas_editor.tabs.values_tab import colour_of
-from ninja_game.ui.theme import Palette
+from ninja_game.ui.theme import Palette, plot_colour
 
 _PREVIEW, BEFORE = -1, -2  # values of ``Compared.number`` for a run that is not among the other runs
 
@@ -32,7 +31,7 @@ class Compared(NamedTuple):
     def colour(self, palette: Palette) -> pygame.Color:
         if self.number == BEFORE:
             return palette.ghost
-        return palette.exit if self.number == _PREVIEW else colour_of(self.number, palette)
+        return palette.exit if self.number == _PREVIEW else plot_colour(self.number, palette)
 
 
 def compared_run(editor: TasEditor) -> Compared | None:
@@ -52,7 +51,7 @@ def compared_run(editor: TasEditor) -> Compared | None:
 
 @lru_cache(maxsize=4)
 def different_keys(ours: bytes, theirs: bytes) -> NDArray[np.uint8]:
-    """For each tick of the longer of two runs the keys that are down in only one of them, as a sum."""
+    """The keys that are down in only one of two runs, as a sum per tick of the longer run."""
     first, second = _keys(ours, theirs)
     return first ^ second
 
@@ -105,7 +104,7 @@ class RowFacts(NamedTuple):
     differs: int  #: the keys that are down either here or in the compared run
     values: Values | None  #: None if the tick is not simulated
     events: str
-    death: str  #: what killed the ninja in this tick, "" else
+    death: str  #: killer of the ninja in this tick, "" without a death
     lead: int | None  #: ticks ahead of the other run at an event of both; None in other ticks
     name: str
     beyond: bool  #: whether it is after the last input
@@ -174,7 +173,7 @@ def _spans(inputs: bytes) -> tuple[list[tuple[int, int]], list[int]]:
 
 @lru_cache(maxsize=2)
 def changed_ticks(track: InputTrack, saved: InputTrack) -> bytes:
-    """For each tick of a track whether it differs from the saved one; ticks that only moved do not."""
+    """Whether each tick of a track differs from the saved track; ticks that only moved do not."""
     ours, theirs = track.inputs, saved.inputs
     if len(ours) == len(theirs):
         return bytes(np.frombuffer(ours, np.uint8) != np.frombuffer(theirs, np.uint8))

@@ -16,7 +16,7 @@ from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, Column, RollLayout, Ro
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Theme, mixed
 
-_MARGIN = 4  # the rows scroll when the cursor is in the first or the last of so many parts of the roll
+_MARGIN = 4  # the rows scroll when the cursor is in the first or the last of this many parts of the roll
 
 WHEEL_ROWS = 4
 SCROLL_MS = 25  # ms per row of scrolling beyond the edge, for each row (at most four) between the edge and the pointer
@@ -86,7 +86,9 @@ class Roll(TasPart):
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        layout, other, palette = self.layout, compared_run(self.editor), theme.palette
+        layout = self.layout
+        other = compared_run(self.editor)
+        palette = theme.palette
         mark = other.colour(palette) if other else palette.ghost
         sheet = self._sheet
         if sheet is None or sheet.theme is not theme or sheet.layout != layout or sheet.mark != mark:
@@ -103,6 +105,9 @@ class Roll(TasPart):
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         return self.pointer.handle_mouse(event, *self.editor.theme.canvas.point(x, y))
+
+    def mouse_left(self) -> None:
+        self.pointer.leave()
 
     def update(self, real_ms: int) -> None:
         self.pointer.update(real_ms)
@@ -124,11 +129,11 @@ class RollMouse:
         self._at = (0, 0)
         self._waited = 0
         self._clicked, self._twice = (-1, -DOUBLE_MS), False
-        self._row_hint = ""
+        self._over = False  # whether the mouse is over the roll: the hint tells what is there
 
     def handle_mouse(self, event: pygame.Event, x: int, y: int) -> bool:
         """A mouse event at a px; whether it was used."""
-        self._at = x, y
+        self._at, self._over = (x, y), True
         if event.type == pygame.MOUSEWHEEL:
             self._wheel(event.y)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT):
@@ -145,14 +150,17 @@ class RollMouse:
         self._tell(x, y)
         return True
 
+    def leave(self) -> None:
+        self._over = False
+
     def stop(self) -> None:
         if self._doing == "paint":
             self._editor.session.end()
         self._doing = ""
 
     def update(self, real_ms: int) -> None:
-        """Scroll while the pointer is beyond the upper or lower edge, and update the hint about a row."""
-        if self._row_hint and self._editor.hint == self._row_hint:
+        """Scroll while the pointer is beyond the upper or lower edge, and update the hint."""
+        if self._over:
             self._tell(*self._at)
         if self._doing not in ("paint", "select"):
             return
@@ -246,7 +254,6 @@ class RollMouse:
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
             row = row_facts(self._editor, tick, tick + 1)[0]
             self._editor.hint = key_difference_text(row, other.name) if other else row_text(row, numbers=not rest)
-        self._row_hint = self._editor.hint
 
 
 class ScrollBar:

@@ -137,7 +137,7 @@ EVENTS = {
     "thwump-landed": EventWord("thwump"),
 }
 EVENTS |= {name: EventWord(name.replace("-", " ")) for name in sorted({*EVENT_NAMES} - EVENTS.keys())}
-"""What happened, the most important first."""
+"""Words for events, the most important event first."""
 
 
 Blit = tuple[pygame.Surface, tuple[int, int]]
@@ -229,7 +229,8 @@ class RowSheet:
             elif place.column.name == "tick":
                 if row.name:
                     fill(palette.ghost, (left, y, place.width, layout.row))
-                number, right = palette.panel if row.name else ink, left + place.width - self._margin
+                number = palette.panel if row.name else ink
+                right = left + place.width - self._margin
                 self._blits += self._digits.blits(str(row.tick), right, y + self._lift, number)
             elif place.column.name == "events":
                 self._events(row, left, place.width, y, ink)
@@ -318,11 +319,14 @@ class RowSheet:
 
     def _events(self, row: RowFacts, left: int, width: int, y: int, ink: pygame.Color) -> None:
         """Events, the most important first, as far as there is room; the marker's name, with one event at most."""
-        palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
+        palette = self.theme.palette
+        gap = self.theme.canvas.px(2)
+        height = self.layout.row
         x, right = left + gap + 1, left + width
         events = [EVENTS[name] for name in sorted(row.events.split(), key=[*EVENTS].index)]
         if row.death:
-            killer, room = row.death.partition(" at ")[0], (right - x - gap) / self.theme.canvas.scale
+            killer = row.death.partition(" at ")[0]
+            room = (right - x - gap) / self.theme.canvas.scale
             events[0] = events[0]._replace(word=self.theme.fit(killer, room, _SIZE, bold=True))
         if row.lead is not None and events:
             events.insert(1, EventWord(f"{row.lead:+d}", "panel", "good" if row.lead >= 0 else "bad"))

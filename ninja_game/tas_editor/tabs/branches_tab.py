@@ -19,6 +19,8 @@ _COLUMNS = (174, 112, 64)  # places of end, gold and difference, px from the rig
 
 
 class BranchesTab(Tab):
+    """The tree of branches; the one under the mouse is also shown in the level and the roll."""
+
     name = "Branches"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -144,7 +146,7 @@ class BranchesTab(Tab):
         theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
 
     def _difference(self, branch: Branch) -> tuple[str, int]:
-        """By how many ticks a branch is shorter or longer than the run, as text."""
+        """The ticks by which a branch is shorter or longer than the run, as text."""
         end, outcome = self.editor.session.timeline.end
         if branch.track.inputs == self.editor.track.inputs:
             return "the same", 0

@@ -35,6 +35,8 @@ def compared_pair(job: _Job) -> tuple[Pair, LeadTable | str]:
 
 
 class LeadTab(Tab):
+    """A table of the run's lead over another run, in ticks; compared in the background after each edit."""
+
     name = "Lead"
 
     def __init__(self, editor: TasEditor) -> None:

@@ -79,6 +79,8 @@ class _Preset(NamedTuple):
 
 
 class SearchTab(Tab):
+    """The form of a span search (goal, measure, method), its progress, and its results to put into the run."""
+
     name = "Search"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -86,7 +88,7 @@ class SearchTab(Tab):
         self.span: Span = (0, 0)
         self._first_behind = 0  #: the first tick that follows the goal in the run
         self.span_reason = ""  #: why the span is not the selection
-        self._last_selection: Span = (0, 0)  #: of which the span was made
+        self._last_selection: Span = (0, 0)  #: the selection from which the span was made
         self.order = EARLIEST
         self.rest = False  #: whether what follows the goal is played, too
         self.method = "auto"
@@ -155,7 +157,8 @@ class SearchTab(Tab):
         """
         first, last = self._last_selection = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
-        before, self.span = (self.span, self.span_reason), (first, last if last > first + 1 else second)
+        before = self.span, self.span_reason
+        self.span = (first, last if last > first + 1 else second)
         self._first_behind, self.span_reason = 0, ""
         self.method = "auto" if self.method in IMPROVES else self.method
         if before == (self.span, ""):
@@ -192,7 +195,8 @@ class SearchTab(Tab):
         self.rest = goal.rest
         self.method = goal.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._first_behind = self.span
-        self.span, self.span_reason = (0 if goal.method else first, goal.last or self._first_behind), goal.why
+        self.span = (0 if goal.method else first, goal.last or self._first_behind)
+        self.span_reason = goal.why
         if start:
             self.start()
 
@@ -333,7 +337,8 @@ class SearchTab(Tab):
     # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
-        results, state = self.results, tuple[object, ...]((len(self.earlier), self.editor.track))
+        results = self.results
+        state = tuple[object, ...]((len(self.earlier), self.editor.track))
         if results:
             state += (results.status, results.running, results.first_behind, self.pieces, *map(id, self.better))
         wanted = self.order, self.rest, self.goal.text
@@ -351,7 +356,8 @@ class SearchTab(Tab):
         self._button.text = "Stop" if results is not None and results.running else "Start"
         status, colour = "Enter in the goal starts, too", palette.faint
         if results is not None:
-            status, colour = results.status, palette.bad if results.search.problem else palette.text
+            status = results.status
+            colour = palette.bad if results.search.problem else palette.text
             if results.first_behind is None:
                 status, colour = "edited since: a click takes it as it was", palette.bad
         theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
@@ -393,8 +399,8 @@ class SearchTab(Tab):
             theme.text(
                 surface, cell, at, y + 3, size=SMALL, width=width, colour=palette.text if fits else palette.faint
             )
-        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=78,
-                   colour=palette.faint if not fits else palette.bad if gain == "a miss" else palette.good)  # fmt: skip
+        colour = palette.faint if not fits else palette.good if result.missed_by is None else palette.bad
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, colour=colour, bold=fits, align="right", width=78)
 
     def _draw_piece(self, surface: pygame.Surface, theme: Theme, piece: RunPiece, area: Area) -> None:
         x, y, w, _ = area

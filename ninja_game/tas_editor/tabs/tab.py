@@ -72,6 +72,8 @@ class Tab(TasPart):
 
 
 class LitButton(Button):
+    """A button that is highlighted while ``is_lit()``."""
+
     def __init__(self, text: str, action: Callable[[], object], is_lit: Callable[[], bool], hint: str = "") -> None:
         super().__init__(UNPLACED, text, action, size=SMALL, hint=hint)
         self.is_lit = is_lit
@@ -98,7 +100,8 @@ class TabStrip(TasPart):
             for tab in tabs
         ]
         for name in OVERLAY_ACTIONS:
-            key, toggle = key_text(TAS_COMMANDS.by_name[name]), partial(overlays.toggle, name)
+            key = key_text(TAS_COMMANDS.by_name[name])
+            toggle = partial(overlays.toggle, name)
             self.widgets.append(LitButton(key, toggle, partial(self._is_on, name), TAS_COMMANDS.hint(name)))
 
     def _is_on(self, name: str) -> bool:
@@ -109,8 +112,10 @@ class TabStrip(TasPart):
         return False
 
     def commands(self) -> Commands:
-        names = [tab.name for tab in self.tabs]
-        return {"next_tab": lambda: setattr(self.editor, "tab", next_option(names, self.editor.tab))}
+        return {"next_tab": self._show_next}
+
+    def _show_next(self) -> None:
+        self.editor.tab = next_option([tab.name for tab in self.tabs], self.editor.tab)
 
     @property
     def shown(self) -> Tab:

@@ -20,7 +20,7 @@ from ninja_game.tas.timeline import Watch, parse_watch
 from ninja_game.tas_editor.editor import TasEditor
 from ninja_game.tas_editor.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area, Palette, Theme, contains_point, run_colour
+from ninja_game.ui.theme import Area, Theme, contains_point, plot_colour
 from ninja_game.ui.widgets import Button, Widget
 
 MIN_SHOWN_TICKS = 10.0  # least ticks shown
@@ -76,12 +76,6 @@ class TickRange:
     def axis(self) -> Iterator[int]:
         step = next((option for option in _STEPS if self.width * option / (self.last - self.first) >= 36), _STEPS[-1])
         return iter(range(-(-int(self.first) // step) * step, int(self.last) + 1, step))
-
-
-def colour_of(number: int, palette: Palette) -> pygame.Color:
-    """The colour of a plot: lighter on dark panels, darker on light ones."""
-    dark = palette.panel.hsla[2] < 50
-    return run_colour(number).lerp("white" if dark else "black", 0.4 if dark else 0.25)
 
 
 def draw_lane(
@@ -222,6 +216,8 @@ _STILL = 3.0  # less movement of the mouse than this, px, is a click
 
 
 class ValuesTab(Tab):
+    """Formulas with their values at the cursor's tick, and plots of up to four of them."""
+
     name = "Values"
 
     def __init__(self, editor: TasEditor) -> None:
@@ -303,7 +299,7 @@ class ValuesTab(Tab):
         self._few_lanes(watched)
 
     def _few_lanes(self, latest: Watched) -> None:
-        """If too many values are plotted, hide the first other one."""
+        """Hide the first other plot if there are too many."""
         others = [watched for watched in self.watched if watched.plotted and watched is not latest]
         if latest.plotted and len(others) >= _LANES:
             others[0].plotted = False
@@ -329,11 +325,11 @@ class ValuesTab(Tab):
         x, y, w, h = self._plot
         lanes = [watched for watched in self.watched if watched.plotted]
         if not lanes:
-            theme.text(surface, "Click a value to see its plot", x + w / 2, y + h / 2, size=SMALL, align="centre",
-                       colour=theme.palette.faint, width=w)  # fmt: skip
+            hint, faint = "Click a value to see its plot", theme.palette.faint
+            theme.text(surface, hint, x + w / 2, y + h / 2, size=SMALL, colour=faint, align="centre", width=w)
         for k, watched in enumerate(lanes):
             lane = (x, y + h * k / len(lanes), w, h / len(lanes) - 3)
-            draw_lane(surface, theme, lane, self.window, watched.values, colour_of(watched.number, theme.palette))
+            draw_lane(surface, theme, lane, self.window, watched.values, plot_colour(watched.number, theme.palette))
         self._paint_ticks(surface, theme)
 
     def _paint_ticks(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -361,7 +357,7 @@ class ValuesTab(Tab):
         watched, palette = self.watched[index], theme.palette
         x, y, w, h = area
         sign = (x + 4, y + h / 2 - 4, 8, 8)
-        colour = colour_of(watched.number, palette)
+        colour = plot_colour(watched.number, palette)
         if watched.plotted:
             theme.canvas.fill_rect(surface, colour, *sign, 2)
         else:

@@ -91,7 +91,7 @@ _LASTING = {
     DRONE: (states.DRONE_FIRING, "laser-beam"),
     FLOOR_GUARD: (states.GUARD_CHASE, "guard"),
 }
-"""By kind: the lasting routine, and its loop."""
+"""The lasting routine of a kind, and its loop, by kind."""
 
 
 def has_loop(o: Object) -> bool:

@@ -223,7 +223,7 @@ def bindable(action: str, name: str, in_menus: Mapping[str, str]) -> bool:
 
 @dataclass(frozen=True)
 class InputEvent:
-    """What an event presses and releases.
+    """The actions that an event presses and releases.
 
     ``raw``: SDL's event. ``pressed``, ``released``: actions in play (``ACTIONS``). ``menu``, ``menu_released``: actions
     in menus (the values of ``MENU_KEYS``), "" for none. ``source``: the pressed input, ("keys", "x") or ("pad", "a");

@@ -62,7 +62,7 @@ class Gamepads:
         return len(self._open)
 
     def changes(self, event: pygame.Event) -> list[Change]:
-        """What an event presses and releases. Pads are opened and closed here as they come and go."""
+        """The inputs that an event presses and releases. Pads are opened and closed here as they come and go."""
         kind = event.type
         if kind == pygame.JOYDEVICEADDED:
             self._add(event.device_index)

@@ -33,14 +33,14 @@ class Effects:
         self.particles.clear()
         self.now = 0.0
 
-    def on_tick(self, level: TileMap, world: World) -> None:
+    def on_tick(self, tiles: TileMap, world: World) -> None:
         """Make the particles of a tick."""
         self.now += 1.0
         self.particles.expire(self.now)
         for event in world.events[: world.event_count]:
             react = REACTIONS.get(event.kind)
             if react:
-                react(self, level, world, event)
+                react(self, tiles, world, event)
         self._wall_and_floor(world)
         self._fall(world)
         for slot in range(1, world.id_count + 1):
@@ -132,28 +132,28 @@ class Effects:
 # --- reactions to events ---
 
 
-def _jumped(effects: Effects, level: TileMap, world: World, event: Event) -> None:
+def _jumped(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
     # The event comes after the jump's displacement; the dust stays at the place before.
     x, y = event.x - event.dx * 11, event.y - event.dy * 12 + (3 if event.dy else 0)
     effects.puffs(x, y, event.dx, event.dy, 20, 7)
 
 
-def _landed(effects: Effects, level: TileMap, world: World, event: Event) -> None:
+def _landed(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     impact = hypot(event.dx, event.dy)
     x, y = event.x - n.floor_x * 10, event.y - n.floor_y * 10
     effects.puffs(x, y, n.floor_x, n.floor_y, 40, 4 + 1.6 * impact, count=2 + min(8, round(impact)))
 
 
-def _won(effects: Effects, level: TileMap, world: World, event: Event) -> None:
+def _won(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
     """Light spreads behind the ninja, sparks before it, and papers fly."""
     for k in range(3):
         effects.add("halo", event.x, event.y, life=40 + 14 * k, size=1.0 + 0.35 * k, rear=True)
     effects.spread("spark", event.x, event.y, 12, 60, life=40)
     for _ in range(48):
         angle = effects.rng.uniform(-pi, 0)
-        x, y = _free_way(level, world, event.x, event.y, angle, effects.rng.uniform(40, 190))
-        _, ground = _free_way(level, world, x, y, pi / 2, CONFETTI_FALL)
+        x, y = _free_way(tiles, world, event.x, event.y, angle, effects.rng.uniform(40, 190))
+        _, ground = _free_way(tiles, world, x, y, pi / 2, CONFETTI_FALL)
         life, variant = effects.rng.uniform(130, 220) / 3, effects.rng.randrange(6)
         flight = x - event.x, y - event.y
         effects.particles.add(
@@ -161,15 +161,15 @@ def _won(effects: Effects, level: TileMap, world: World, event: Event) -> None:
         )
 
 
-def _free_way(level: TileMap, world: World, x: float, y: float, angle: float, far: float) -> tuple[float, float]:
+def _free_way(tiles: TileMap, world: World, x: float, y: float, angle: float, far: float) -> tuple[float, float]:
     """The end of a path of this length, which stops before a wall."""
     dx, dy = cos(angle), sin(angle)
-    stopped, to_x, to_y = ray_tiles(level, world, x, y, x + dx, y + dy)
+    stopped, to_x, to_y = ray_tiles(tiles, world, x, y, x + dx, y + dy)
     way = min(far, max(0.0, hypot(to_x - x, to_y - y) - 3)) if stopped else far
     return x + dx * way, y + dy * way
 
 
-def _died(effects: Effects, level: TileMap, world: World, event: Event) -> None:
+def _died(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     if event.cause == states.ELECTRIC:
         for _ in range(6):
@@ -183,31 +183,31 @@ def _died(effects: Effects, level: TileMap, world: World, event: Event) -> None:
     effects.blood(event.x, event.y, event.dx, event.dy, effects.rng.randint(8, 14))
 
 
-def _launched(effects: Effects, level: TileMap, world: World, event: Event) -> None:
+def _launched(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
     length = hypot(event.dx, event.dy) or 1.0
     effects.puffs(event.x, event.y + 6, event.dx / length, event.dy / length, 55, 9)
 
 
-def _thud(effects: Effects, level: TileMap, world: World, event: Event) -> None:
+def _thud(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
     x, y = event.x + event.dx * 9, event.y + event.dy * 9
     effects.puffs(x, y, -event.dx, -event.dy, 25, 9)
 
 
-def _line_of_fire(level: TileMap, world: World, event: Event) -> tuple[float, float]:
+def _line_of_fire(tiles: TileMap, world: World, event: Event) -> tuple[float, float]:
     """The end of a shot from an event's place in its direction: a tile, or the ninja before it."""
-    hit, x, y = ray_tiles(level, world, event.x, event.y, event.x + event.dx, event.y + event.dy)
+    hit, x, y = ray_tiles(tiles, world, event.x, event.y, event.x + event.dx, event.y + event.dy)
     return (x, y) if hit else (event.x + 30 * event.dx, event.y + 30 * event.dy)
 
 
-def _turret_fired(effects: Effects, level: TileMap, world: World, event: Event) -> None:
-    x, y = _line_of_fire(level, world, event)
+def _turret_fired(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
+    x, y = _line_of_fire(tiles, world, event)
     effects.add("shot", event.x, event.y, x - event.x, y - event.y, life=14)
     effects.add("muzzle", event.x, event.y, event.dx, event.dy, life=7)
     effects.spread("debris", x, y, 5, 18, life=16)
 
 
-def _bullet(effects: Effects, level: TileMap, world: World, event: Event) -> None:
-    x, y = _line_of_fire(level, world, event)
+def _bullet(effects: Effects, tiles: TileMap, world: World, event: Event) -> None:
+    x, y = _line_of_fire(tiles, world, event)
     effects.add("bullet", event.x + 12 * event.dx, event.y + 12 * event.dy, x - event.x, y - event.y, life=8)
     effects.add("muzzle", event.x + 11 * event.dx, event.y + 11 * event.dy, event.dx, event.dy, life=8)
     effects.spread("debris", x, y, 3, 14, life=13)

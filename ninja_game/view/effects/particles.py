@@ -24,7 +24,7 @@ class Particle:
     y: float
     dx: float = 0.0
     dy: float = 0.0
-    life: float = 10.0  #: its length
+    life: float = 10.0  #: length of its life
     size: float = 1.0
     variant: int = 0
     born: float = 0.0  #: the tick of its start

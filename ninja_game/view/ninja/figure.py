@@ -269,7 +269,7 @@ def _paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose,
 
 
 def band_ends(head: Point, shoulder: Point) -> tuple[Point, Point]:
-    """Where a headband crosses the outline of a head above a neck: left and right."""
+    """The two points where a headband crosses the outline of a head above a neck: left and right."""
     ux, uy = head[0] - shoulder[0], head[1] - shoulder[1]
     length = (ux * ux + uy * uy) ** 0.5 or 1.0
     ux, uy = ux / length, uy / length

@@ -119,7 +119,7 @@ class Ragdoll:
             sticks.append(stick._replace(first=len(self.particles) - 1, share=0.5))
         self.sticks = sticks
 
-    def step(self, level: TileMap, world: World) -> None:
+    def step(self, tiles: TileMap, world: World) -> None:
         """One tick: move, pull together, push out of solid shapes."""
         for particle in self.particles:
             particle.sx, particle.sy = particle.x, particle.y
@@ -133,7 +133,7 @@ class Ragdoll:
         for stick in self.sticks:
             self._pull(stick)
         for particle in self.particles:
-            self._collide(level, world, particle)
+            self._collide(tiles, world, particle)
 
     def _pull(self, stick: Stick) -> None:
         a, b = self.particles[stick.first], self.particles[stick.second]
@@ -147,17 +147,17 @@ class Ragdoll:
             b.x -= dx * pull * (1 - stick.share)
             b.y -= dy * pull * (1 - stick.share)
 
-    def _collide(self, level: TileMap, world: World, particle: VerletParticle) -> None:
+    def _collide(self, tiles: TileMap, world: World, particle: VerletParticle) -> None:
         """At the end of the path, and for a fast particle at places before it."""
         vx, vy = particle.x - particle.sx, particle.y - particle.sy
         square = vx * vx + vy * vy
         stops = (1.0,) if square < 4 else (0.5, 1.0) if square < 36 else tuple(k / 6 for k in range(1, 7))
         for share in stops:
             particle.x, particle.y = particle.sx + vx * share, particle.sy + vy * share
-            if solid_at(level, particle.x, particle.y):
+            if solid_at(tiles, particle.x, particle.y):
                 particle.x, particle.y = particle.sx, particle.sy
             touched = False
-            for nx, ny, kick in (*tile_push(level, world, particle), *object_pushes(world, particle)):
+            for nx, ny, kick in (*tile_push(tiles, world, particle), *object_pushes(world, particle)):
                 vx, vy = self._bounce(particle, vx, vy, nx, ny)
                 vx, vy = vx + nx * kick, vy + ny * kick
                 touched = True
@@ -246,28 +246,28 @@ _BEHIND = {RIGHT: 1, DOWN: STRIDE, LEFT: -1, UP: -STRIDE}
 _WAYS = tuple((cos(k * pi / 8), sin(k * pi / 8)) for k in range(16))
 
 
-def tile_push(level: TileMap, world: World, box: VerletParticle) -> list[tuple[float, float, float]]:
+def tile_push(tiles: TileMap, world: World, box: VerletParticle) -> list[tuple[float, float, float]]:
     """As ``object_pushes``, for tiles and closed doors, which a box touches as a disc."""
     x, y, half = box.x, box.y, box.half
     cell = cell_at(x, y)
-    if not level.tiles[cell] and max(abs(x - CENTRE_X[cell]), abs(y - CENTRE_Y[cell])) < HALF - half:
+    if not tiles.ids[cell] and max(abs(x - CENTRE_X[cell]), abs(y - CENTRE_Y[cell])) < HALF - half:
         return []
-    if solid_at(level, x, y):
+    if solid_at(tiles, x, y):
         # No ray leads out: a hand was in the wall when the ninja died, or an object has pushed a limb there.
         for reach, (wx, wy) in product(range(1, 25), _WAYS):
             box.x, box.y = x + reach * wx, y + reach * wy
-            if cell_at(box.x, box.y) and not solid_at(level, box.x, box.y):
+            if cell_at(box.x, box.y) and not solid_at(tiles, box.x, box.y):
                 return [(wx, wy, 0.0)]
         box.x, box.y = x, y
         return []
     shut = {cell + step for side, step in _BEHIND.items() if world.edges[4 * cell + side] == SOLID}
     points = [(x + wx * half, y + wy * half, wx, wy) for wx, wy in _WAYS]
-    touched = [way for px, py, *way in points if solid_at(level, px, py) or cell_at(px, py) in shut]
+    touched = [way for px, py, *way in points if solid_at(tiles, px, py) or cell_at(px, py) in shut]
     nx, ny = (-sum(axis) for axis in zip(*touched, strict=True)) if touched else (0.0, 0.0)
     length = hypot(nx, ny)
     if length < 1e-6:
         return []
-    hits = [cast_ray(level, world, x, y, wx, wy) for wx, wy in touched]
+    hits = [cast_ray(tiles, world, x, y, wx, wy) for wx, wy in touched]
     depth = max(0.0, half - min(hypot(hit_x - x, hit_y - y) for _, hit_x, hit_y in hits))
     box.x += depth * nx / length
     box.y += depth * ny / length

@@ -23,14 +23,14 @@ class Backdrop:
     Px count from the upper left corner of the visible part of the stage.
     """
 
-    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: TileMap) -> None:
+    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, tiles: TileMap) -> None:
         self.canvas = canvas
         self.palette = palette
         self._book = book
         self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
         sheet = TileSheet(canvas, palette.tile)
-        sheet.show(level.tiles)
+        sheet.show(tiles.ids)
         if palette.scenery:
             self.ground = add_relief(sheet, palette)
         else:

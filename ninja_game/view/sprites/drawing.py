@@ -41,7 +41,7 @@ class SpriteKey(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Drawing(Generic[P]):
-    """What a sprite shows: ``paint(sketch, palette, *parameters)`` draws it within ``extent``."""
+    """The content of a sprite: ``paint(sketch, palette, *parameters)`` draws it within ``extent``."""
 
     extent: Extent
     paint: Callable[Concatenate[Sketch, Palette, P], None]

@@ -29,7 +29,7 @@ STYLES = {
     kinds.TURRET: LightStyle("turret", 26, 60),
     kinds.LAUNCHER: LightStyle("launcher", 26, 60),
 }
-"""By kind, for objects in their first state."""
+"""The lights of objects in their first state, by kind."""
 
 
 class Light(NamedTuple):

@@ -159,7 +159,7 @@ def launcher_base(s: Sketch, p: Palette, step: int) -> None:
 
 @drawing(9)
 def crosshair(s: Sketch, p: Palette, look: int) -> None:
-    """What a turret aims with. ``look``: 0 far, 1 mid, 2 near, 3 locked (before and after the shot)."""
+    """The crosshair of a turret. ``look``: 0 far, 1 mid, 2 near, 3 locked (before and after the shot)."""
     radius = (2.3, 4.5, 6.8, 6.8)[look]
     colour = mixed(p.outline, p.turret, 0.4) if look < 3 else p.laser
     s_width = 0.8 if look < 3 else 1.1

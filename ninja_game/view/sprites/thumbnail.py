@@ -7,8 +7,8 @@ import pygame
 from ninja_game.errors import LevelError
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.schema.world_fields import TileMap, World
+from ninja_game.sim.loader import tile_map
+from ninja_game.sim.schema.world_fields import World
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.theme import Palette
@@ -35,9 +35,7 @@ def thumbnail(level: Level, palette: Palette, width: int, *, opened: bool = Fals
     try:
         run = Simulation(level)
     except LevelError:
-        static = TileMap()
-        static.tiles = grid_tiles(level)
-        backdrop = Backdrop(canvas, palette, book, static)
+        backdrop = Backdrop(canvas, palette, book, tile_map(level))
         backdrop.ground.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
         return backdrop.ground
     if opened:

@@ -134,7 +134,9 @@ def speed_and_keys(speeds: NDArray[np.float64], inputs: bytes, splits: Sequence[
     """
     keys = np.frombuffer(inputs, np.uint8)[: len(speeds)]
     length = min(len(speeds), max(ROW_TICKS, -(-len(speeds) // _MAX_ROWS)))
-    wide, step, top = (_RIGHT - BESIDE) / length, -(-length // _MAX_COLUMNS), float(speeds.max()) or 1.0
+    wide = (_RIGHT - BESIDE) / length
+    step = -(-length // _MAX_COLUMNS)
+    top = float(speeds.max()) or 1.0
     rows = []
     for start in range(0, len(speeds), length):
         end = min(start + length, len(speeds))

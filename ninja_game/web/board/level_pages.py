@@ -34,7 +34,7 @@ ROWS_SHOWN = 10  # rows of a table
 RUNS_SIDE_BY_SIDE = 5
 MIN_SPLITS = 5  # with fewer, splits do not show where time is lost
 MAX_LEADS = 160  # points of a line in a chart
-COARSE = 4  # one of so many ticks is compared place by place: all would take a third of the time of a board
+COARSE = 4  # one of this many ticks is compared place by place: all would take a third of the time of a board
 MAX_ALIGNED_TICKS = 8000  # ticks of a run; longer ones would take too much memory
 _MAX_SECONDS = 30 * TICKS_PER_SECOND  # a longer run has fewer rows, some seconds apart
 MAX_SPLITS = 60  # rows of splits; beyond it gold is left out
@@ -64,8 +64,11 @@ class LevelPages:
     def write_run_page(self, run: Run, beside: Sequence[Run]) -> None:
         """Write the page of a run. ``beside``: the runs of the level that are shown side by side."""
         parts = self.parts
-        stem, title = parts.stems[run.key], f"{parts.shown_name(run.player)} on {run.entry.title}"
-        ranks, links, rival = list[tuple[str, str]](), list[Markup](), None
+        stem = parts.stems[run.key]
+        title = f"{parts.shown_name(run.player)} on {run.entry.title}"
+        ranks = list[tuple[str, str]]()
+        links = list[Markup]()
+        rival = None
         for leaderboard, rows, number in self.ranking.places.get(run.key, ()):
             row, first = rows[number], rows[0]
             if number >= ROWS_SHOWN:
@@ -86,7 +89,8 @@ class LevelPages:
 
         def content() -> str:
             drawn, below = self._run_sections(run, rival)
-            more, about = joined(*(tag("p", link) for link in links)), (parts.game, parts.links, parts.site)
+            more = joined(*(tag("p", link) for link in links))
+            about = (parts.game, parts.links, parts.site)
             return run_page(run.entry, stem, title, facts, BOARD, *about, drawn, more, below)
 
         parts.pages.make(f"{stem}.html", [title, facts, links, parts.around], content, replay=True)
@@ -99,11 +103,13 @@ class LevelPages:
         beside = [run] if rival else []
         if rival and rival.key != run.key:
             beside.append(rival)
-        ghosts, name = [*map(self._ghost, beside)], self.parts.shown_name(run.player)
+        ghosts = [*map(self._ghost, beside)]
+        name = self.parts.shown_name(run.player)
         positions = ghosts[0].positions if ghosts else run.positions
         speeds = np.hypot(*np.diff(positions, axis=0, prepend=positions[:1]).T)
         rows = [row for row in _split_rows(ghosts) if row.ticks[0] is not None] if ghosts else []
-        ticks, lines = [row.ticks[0] or 0 for row in rows], list[tuple[Content, ...]]()
+        ticks = [row.ticks[0] or 0 for row in rows]
+        lines = list[tuple[Content, ...]]()
         for number, (tick, row) in enumerate(zip(ticks, rows, strict=True), 1):
             other = row.ticks[1] if len(row.ticks) > 1 else None
             about = seconds_text(tick), f"{speeds[tick]:.2f}", "" if other is None else signed(tick - other)
@@ -118,7 +124,8 @@ class LevelPages:
         best = int(speeds.argmax())
         fast = f"Fastest at {seconds_text(best)} s: {speeds[best]:.2f} px per tick; {speeds.mean():.2f} on average."
         chart = speed_and_keys(speeds, run.inputs, ticks)
-        image, places = f"{UP}{BOARD}/{picture_name(run.level)}", [(row.split.x, row.split.y) for row in rows]
+        image = f"{UP}{BOARD}/{picture_name(run.level)}"
+        places = [(row.split.x, row.split.y) for row in rows]
         drawn = paths(image, [(name, path_data(positions))], places)
         return drawn, joined(section("Speed and keys", tag("p", fast), *chart), where, splits)
 
@@ -154,7 +161,8 @@ class LevelPages:
         self._ghosts.clear()
         self._compared.clear()
         if runs:
-            heads, back = ("Player", "Time", "Score", *RUN_HEADS), tag("a", "The level", href=UP + page_name(digest))
+            heads = ("Player", "Time", "Score", *RUN_HEADS)
+            back = tag("a", "The level", href=UP + page_name(digest))
             name, caption = f"levels/{digest[:16]}-runs", "All runs, the fastest first"
             ordered = sorted(rows, key=itemgetter(-1))
             parts.write_table(name, entry.title, caption, heads, ordered, tag("p", back), cells=cells)
@@ -175,7 +183,8 @@ class LevelPages:
         folded = tag("details", tag("summary", "How the other records went"), *others) if others else None
         merged: dict[Any, list[_Ranks]] = defaultdict(list)
         for part, table_ in tables.items():
-            far, rows = [row for row in table_ if row.is_far], [row for row in table_ if not row.is_far][:ROWS_SHOWN]
+            far = [row for row in table_ if row.is_far]
+            rows = [row for row in table_ if not row.is_far][:ROWS_SHOWN]
             ranks = _Ranks(part, rows, far, self.ranking.waiting(entry.digest, part, table_))
             merged[part[0], *((row.place, row.run.key) for row in rows)].append(ranks)
         shown, leaders = list[Content](), dict[Leaderboard, Markup]()
@@ -201,13 +210,14 @@ class LevelPages:
         return tag("p", f"{what}: {', '.join(texts)}.") if texts else None
 
     def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
-        """Who leads a table, and a link to it; where all wait for confirmation, how many do."""
+        """The leader of a table, and a link to it; if all runs wait for confirmation, their number."""
         parts, leaderboard, best = self.parts, ranks.leaderboard, ranks.rows[0]
         link = tag("a", self.ranking.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
             waits = parts.waiting_link(row.run for row in self.ranking.tables[best.run.level][leaderboard])
             return tag("li", link, tag("p", waits, class_="facts"), class_="card leader")
-        result, run = tag("strong", leaderboard[1].measured(best.values[0])), best.run
+        result = tag("strong", leaderboard[1].measured(best.values[0]))
+        run = best.run
         about = tag("p", parts.player_link(run.player, UP), parts.watch_link([run], UP), run.day, class_="facts")
         return tag("li", link, result, about, class_="card leader")
 
@@ -231,7 +241,9 @@ class LevelPages:
         return section(title, best, anchor=anchor)
 
     def _progression(self, entry: Entry, leaderboard: Leaderboard, anchor: str) -> Content:
-        parts, category, runs = self.parts, leaderboard[1], self.ranking.history[entry.digest, leaderboard]
+        parts = self.parts
+        category = leaderboard[1]
+        runs = self.ranking.history[entry.digest, leaderboard]
         moved = "rose" if category.greatest_first else "fell"
         numbers = [self.ranking.number(category, run) for run in runs]
         better = ["", *(category.gain(before - now) for before, now in pairwise(numbers))]
@@ -278,8 +290,8 @@ class LevelPages:
             (tag("a", number, href=f"#{PLACE}{number}"), row.split.name, *_cells(row))
             for number, row in enumerate(rows, 1)
         ]
-        fastest, first, *others = by_time[0][0], *(heads[number] for *_, number in by_time)
-        note = f"Seconds; later than {fastest}: +; numbers are those in the picture"
+        first, *others = (heads[number] for *_, number in by_time)
+        note = f"Seconds; later than {by_time[0][0]}: +; numbers are those in the picture"
         splits = table(note, ("No.", "Split", first, "Fastest segment", *others), lines, ("No.",))
         best = tag("p", f"Sum of the fastest segments, each from the row above: {seconds_text(sum_of_best(rows))} s.")
         where = self._where_time_goes(by_time, tabled=len(rows) < MIN_SPLITS)
@@ -298,10 +310,9 @@ class LevelPages:
         return self.parts.watch_link(both, UP, signed(both[0].tick - both[1].tick), (at, other)) if at != other else ""
 
     def _where_time_goes(self, runs: Sequence[tuple[str, Run, int]], *, tabled: bool = False) -> Content:
-        """Where each named run loses most on the first, the fastest, and a chart of how much later it is on the way.
+        """The part on which each named run loses most to the first, fastest one, and a chart of its delay on the way.
 
-        None for runs too long to align. The number of a run is that of its colour. ``tabled``: also as a table, at each
-        second of the first.
+        None for runs too long to align. The number of a run is its colour's. ``tabled``: also a table by seconds.
         """
         (fastest, first, _), *others = runs
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
@@ -340,7 +351,7 @@ class LevelPages:
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
-    """By how many ticks the other run is later at the places of these ticks; None: it is not near there."""
+    """The ticks by which the other run is later at the places of these ticks; None: it is not near there."""
     partner = aligned(ours[::COARSE], theirs[::COARSE])
     leads: list[int | None] = []
     for tick in ticks:

@@ -1,4 +1,4 @@
-"""What all pages of a board share: links, tables of any length, names."""
+"""Parts of all pages of a board: links, tables of any length, names."""
 
 from __future__ import annotations
 
@@ -52,13 +52,14 @@ UNKNOWN_ORIGIN = (
 
 
 class Parts:
-    """What all pages of a board in ``out/board/`` share: their folder, links, tables, and the names of its runs.
+    """The common parts of a board's pages in ``out/board/``: their folder, links, tables, and the names of its runs.
 
     ``up``: the path from a page to that folder, "" or UP; ``address``: of ``out``, if it is known.
     """
 
     def __init__(self, out: Path, ranking: Ranking, memo: Memo | None = None, *, address: str = "") -> None:
         self.pages, self.ranking = Pages(out, BOARD, memo), ranking
+        self.main = ranking.categories[0]
         self.game = f"../{GAME_PAGE}"
         self.site = address and f"{address}{BOARD}/"
         assisted = [("assisted.html", "Assisted")] if len(ranking.ladders) > 1 else []
@@ -68,7 +69,7 @@ class Parts:
         # Pages of levels and runs have no number that changes them all.
         self.top = [*self.links, *([("waiting.html", f"Waiting: {waiting}")] if waiting else [])]
         self.deeper = [(UP + address, name) for address, name in self.links]
-        self.around = values_digest([self.links, self.site])  #: of the text on every page
+        self.around = values_digest([self.links, self.site])  #: digest of the text on every page
         self.stems = {run.key: _stem(run) for run in ranking.judged.runs}
 
     def write_table(
@@ -106,13 +107,13 @@ class Parts:
 
             self.pages.make(file, [title, caption, heads, part, lead, more, links], content)
 
-    def watch_link(self, runs: Sequence[Run], up: str, text: str = "Watch", colours: Sequence[int] = ()) -> Markup:
+    def watch_link(self, runs: Sequence[Run], up: str, text: str = "", colours: Sequence[int] = ()) -> Markup:
         """A link that watches a run, the others as ghosts; ``colours``: of all, by number, if not in their order."""
         marks = [f"-{number}" for number in colours] or [""] * len(runs)
         stems = (self.stems[run.key] + mark for run, mark in zip(runs, marks, strict=True))
         address = watch_address(up + self.game, *stems)
-        label = f"{text}: {runs[0].player} on {runs[0].entry.title}"
-        return tag("a", text, href=address, aria_label=label, class_="watch" if text == "Watch" else None)
+        label = f"{text or 'Watch'}: {runs[0].player} on {runs[0].entry.title}"
+        return tag("a", text or "Watch", href=address, aria_label=label, class_=None if text else "watch")
 
     def waiting_link(self, runs: Iterable[Run]) -> Content:
         """A link from a deeper page to what waits, with the number of these runs that do; None for none."""
@@ -121,13 +122,14 @@ class Parts:
 
     def run_link(self, run: Run, up: str, text: str = "") -> Markup:
         """A link to the page of a run with the text ``text``, such as its time; by default to its replay."""
-        address, label = f"{up}../{REPLAYS}/{self.stems[run.key]}", f"{run.player} on {run.entry.title}"
+        address = f"{up}../{REPLAYS}/{self.stems[run.key]}"
+        label = f"{run.player} on {run.entry.title}"
         if text:
             return tag("a", text, href=f"{address}.html", aria_label=f"{text}: {label}")
         return tag("a", "File", href=f"{address}.txt", download=True, aria_label=f"File: {label}")
 
     def behind(self, category: Category, row: Ranked, first: Ranked, word: str = "") -> str:
-        """By how much a run is behind the first, or the criterion that decides. ``word``: behind a number."""
+        """The gap of a run to the first, or the criterion that decides. ``word``: written behind a number."""
         if not row.place or row is first:
             return ""
         if row.values == first.values:
@@ -152,20 +154,47 @@ class Parts:
 
         ``timed``: with its medal, which is for the time; ``mark``: before the player's name.
         """
-        gold, medal = f"{run.gold} of {run.entry.all_gold}", medal_mark(run.medal if timed else "")
+        gold = f"{run.gold} of {run.entry.all_gold}"
+        medal = medal_mark(run.medal if timed else "")
         about = made_text(run), gold, run.day, medal, self.run_link(run, UP)
         others = (
             tag("span", f" with {shown_text(run.co_authors, _MAX_NAME)}", class_="with") if run.co_authors else None
         )
         summary = tag("summary", "Waits" if run.waits else "Remark")
         note = tag("details", summary, run.remark, class_="note") if run.remark else None
-        player, linked = self.player_link(run.player, UP), self.run_link(run, UP, str(results[0]))
+        player = self.player_link(run.player, UP)
+        linked = self.run_link(run, UP, str(results[0]))
         return joined(mark, player, others, note), linked, *results[1:], self.watch_link([run], UP), *about
 
     def shown_value(self, category: Category, run: Run) -> str:
         """The number that ranks a run, as text; "" if it is not in the category."""
         values = self.ranking.values(category, run)
         return category.text(values[0]) if values else ""
+
+    def placed(self, digest: str, ladder: str) -> list[Ranked]:
+        """The runs with a place in the first category of a ladder, except those far behind."""
+        rows = self.ranking.tables.get(digest, {}).get((ladder, self.main), [])
+        return [row for row in rows if row.place and not row.is_far]
+
+    def counts_of(self, digest: str) -> str:
+        """The numbers of a level's runs and players, over all ladders and categories."""
+        runs = self.ranking.by_level.get(digest, [])
+        players = {run.player for run in runs}
+        return f"{counted(len(runs), 'run')} by {counted(len(players), 'player')}" if runs else "no run yet"
+
+    def best_results(self, digest: str) -> list[Content]:
+        """The best number and its player in the first category of each ladder with runs."""
+        firsts: list[Content] = []
+        for ladder in self.ranking.ladders:
+            if first := next(iter(self.placed(digest, ladder)), None):
+                name = ladder.capitalize() if len(self.ranking.ladders) > 1 else self.main.name
+                result = tag("b", self.main.measured(first.values[0]))
+                firsts.append(joined(tag("span", name), " ", result, " ", self.player_link(first.run.player)))
+        return firsts
+
+    def of_both(self) -> str:
+        """A caption's addition if there are two ladders."""
+        return "; runs and players are those of both ladders" if len(self.ranking.ladders) > 1 else ""
 
 
 def player_page(player: str) -> str:
@@ -191,10 +220,15 @@ def cards(caption: str, contents: Iterable[Content]) -> Markup:
 
 
 def made_text(run: Run) -> Markup:
-    """How a run was made; a long text is folded."""
+    """The provenance of a run; a long text is folded."""
     if len(run.made) <= LONG_CELL:
         return tag("span", run.made or "unknown", class_="made")
     return tag("details", tag("summary", "Assisted" if run.assisted else "Played"), run.made, class_="note made")
+
+
+def stack(*lines: Content) -> Markup:
+    """Lines in one cell of a table, without empty ones."""
+    return tag("div", *(tag("div", line) for line in lines if line), class_="stack")
 
 
 def _stem(run: Run) -> str:

@@ -13,7 +13,7 @@ from ninja_game.play.app import App, build_app
 from ninja_game.play.main import first_screen
 
 LONG_TURN = 0.02
-"""A turn whose events and ticks take so many seconds, as one that opens a level, leaves the picture to the next."""
+"""A turn whose events and ticks take this many seconds, as one that opens a level, leaves the picture to the next."""
 
 
 class _Game:

@@ -99,7 +99,7 @@ function turn(now) {
   for (const each of live) if (each.seen) each.turn(now);
 }
 
-// Let a place of the text do something with the engine, once at a time; what goes wrong is said.
+// Let a place of the text do something with the engine, once at a time; errors are shown.
 async function use(place, act, say) {
   if (place.classList.contains("waiting")) return;
   place.classList.add("waiting");

@@ -100,7 +100,7 @@ async function keptMemory(cache) {
   return kept ? new Uint8Array(await kept.arrayBuffer()) : null;
 }
 
-// Python with the game imported, from its memory if that can be had; a memory that cannot be used is given up.
+// Python with the game imported, from its memory if there is one; a memory that cannot be used is deleted.
 export async function startPython() {
   const cache = await openCache();
   const memory = await keptMemory(cache);

@@ -27,7 +27,7 @@ _MAX_TEXT = 400  # characters of a text that are shown
 _EMPTY = frozenset({"img", "input", "link", "meta", "source"})  # elements without an end tag
 
 _ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
-"""Where a page may link: a file of its site, a page with the game, a fragment; no scheme that runs anything."""
+"""The allowed targets of links: a file of the site, a page with the game, a fragment; no scheme that runs anything."""
 
 
 class Markup(str):

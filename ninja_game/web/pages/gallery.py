@@ -289,7 +289,8 @@ def _card(entry: Entry, place: int) -> Markup:
     name = tag("a", shown_text(entry.title, _MAX_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
-    head, below = tag("h2", number, joined(" ") if number else None, name), tag("p", *facts, class_="facts")
+    head = tag("h2", number, joined(" ") if number else None, name)
+    below = tag("p", *facts, class_="facts")
     return tag(
         "li", level_image(entry, lazy=True), head, below, class_="card", data_words=words,
         data_episode=entry.episode[:2], data_place=place, data_name=entry.title.casefold(),

@@ -18,9 +18,10 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
-from ninja_game.editor.brush import object_of_type, placed, with_switch
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.examination import Question, examined
 from ninja_game.editor.files import open_source
+from ninja_game.editor.palette import object_of_type, placed, with_switch
 from ninja_game.editor.reach import LANDED_TICK, Ask, find_reach
 from ninja_game.editor.solver import Certification, Certifier, Solver, search_of
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
@@ -28,7 +29,6 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, parse_replay
 from ninja_game.levels.findings import level_finding
-from ninja_game.play.editor.session import _examine
 from ninja_game.play.editor.sheet import _rects
 from ninja_game.play.menu_screen import Menu
 from ninja_game.runs.packs import lint, make_pars
@@ -267,7 +267,7 @@ def test_what_is_stopped_while_it_fails_stays_stopped(monkeypatch: pytest.Monkey
     assert (certifier.text, certifier.certification.failed) == ("Stopped", False)
 
 
-def test_a_door_that_the_certified_run_passes_by_is_told_of() -> None:
+def test_a_door_that_the_certified_run_skips_is_reported() -> None:
     switches = (130.0, 540.0), (300.0, 300.0)
     door = placed(object_of_type("locked door"), 324.0, 540.0, "cell")
     level = ROOM.with_objects((*ROOM.objects, *(with_switch(door, *at, "px") for at in switches))).level
@@ -347,7 +347,7 @@ def test_an_exit_in_one_wall_with_its_switch_is_one_problem(room: Maker) -> None
     found = []
     for shut in (walls[0] | walls[1], walls[1]):
         level = room.draft.with_tiles(dict.fromkeys(shut, 1)).level
-        found.append([each.code for each in _examine((level, (), "", b""))[1] if exit_ in each.records])
+        found.append([each.code for each in examined(Question(level, (), "", b"")).findings if exit_ in each.records])
     assert found == [["unreachable"], ["unreachable-switch"]]
 
 
@@ -368,9 +368,9 @@ def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
     assert started == [room.draft.level]
     exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
     never = level_finding("unreached-exit", (exit_,))
-    odd = _examine((room.draft.level, (never,), "", b""))[1]
+    odd = examined(Question(room.draft.level, (never,), "", b"")).findings
     assert [each.code for each in odd if exit_ in each.records] == ["unreachable"]
-    assert _examine((ROOM.level, (never,), "", b""))[1] == [never]
+    assert examined(Question(ROOM.level, (never,), "", b"")).findings == [never]
 
 
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
+from ninja_game.editor.palette import OBJECT_TYPES, placed
 from ninja_game.editor.specs import BODY_PART, points
 from ninja_game.editor.stamp import Selection, Stamp, with_stamp
 from ninja_game.files.bundled import bundled_levels
@@ -49,11 +49,11 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
     assert sum(bool(look.sprites) for look in exact.values()) > 500
 
 
-def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Maker) -> None:
+def test_what_is_dragged_goes_to_the_last_place_of_the_mouse(room: Maker) -> None:
     room.editor.session.begin(Source(with_stamp(ROOM, Stamp({}, CROWD))))
     room.frames(3)
     tools = room.editor.session.tools
-    tools.tool, tools.snap = "select", "px"
+    tools.tool, tools.brush.snap = "select", "px"
     tools.selection = Selection(None, frozenset((n, BODY_PART) for n in range(len(tools.draft.objects))))
     before = [points(spec)[BODY_PART] for spec in tools.draft.objects]
     x, y = before[100]
@@ -71,9 +71,9 @@ def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Ma
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0), touch=False))
     room.frames()
     assert len(moves) == 2
-    checked = room.editor.session._checks.result
+    checked = room.editor.session.examination.job.result
     room.frames(20)
-    assert room.editor.session._checks.result is checked, "problems are looked for when it is let go"
+    assert room.editor.session.examination.job.result is checked, "problems are looked for when it is let go"
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=places[9], rel=(0, 0), buttons=(1, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=places[9], button=1, touch=False))
     room.frames()

@@ -14,10 +14,11 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
-from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
 from ninja_game.editor.draft import Draft
+from ninja_game.editor.examination import Examined
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.motion import SYMMETRIES
+from ninja_game.editor.palette import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
 from ninja_game.editor.playtests import with_ninja_at
 from ninja_game.editor.reach import LANDED_TICK, SQUARE, STARTS, Reach
 from ninja_game.editor.solver import Certification
@@ -28,9 +29,14 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.commands import EDITOR_COMMANDS, TryScreen
+from ninja_game.play.editor.bars import StatusLine, Toolbar
+from ninja_game.play.editor.commands import EDITOR_COMMANDS
 from ninja_game.play.editor.messages import MessagesScreen
-from ninja_game.play.editor.parts import FIRST_STEPS, Findings, ObjectList, StatusLine, Toolbar, ToolButton
+from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.panels import Findings
+from ninja_game.play.editor.part import ToolButton
+from ninja_game.play.editor.playtest import PlaytestScreen
+from ninja_game.play.editor.properties import FIRST_STEPS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import GRIDS, sign_mark
 from ninja_game.play.editor.stamp_menu import StampMenu
@@ -80,9 +86,9 @@ def test_from_the_menu_a_level_is_drawn_by_mouse(maker: Maker) -> None:
 def test_keys_choose_draw_and_place(room: Maker) -> None:
     tools = room.editor.session.tools
     room.press("4", "s")
-    assert tools.tile == 7
+    assert tools.brush.tile == 7
     room.press("shift+n")
-    assert tools.draws_objects
+    assert tools.brush.draws_objects
     room.press("9", "right", "down")
     before = tools.cell
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES["space"], mod=0, unicode=" "))
@@ -142,7 +148,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
     room.pad(a)
     assert room.draft.tile(cell) == 1
     room.pad(10)  # the next tile
-    assert tools.tile == 5
+    assert tools.brush.tile == 5
     room.pad(b)
     room.pad(b)
     assert isinstance(room.top(), Menu)
@@ -150,7 +156,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
     assert isinstance(room.top(), EditorScreen)
     room.pad(x)
     room.pad(6)  # the start button tries it out
-    assert isinstance(room.top(), TryScreen)
+    assert isinstance(room.top(), PlaytestScreen)
 
 
 def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -> None:
@@ -161,13 +167,13 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     room.keys.script = [2] * 20
     room.press("space")
     room.frames(19)
-    assert isinstance(room.top(), TryScreen)
+    assert isinstance(room.top(), PlaytestScreen)
     room.press("escape")
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
     assert tools.history._done == history
-    assert len(room.editor.session.last_try) == 20
-    assert room.editor.session.last_try[0] == (60.0, 542.0)
+    assert len(room.editor.session.playtests.last_route) == 20
+    assert room.editor.session.playtests.last_route[0] == (60.0, 542.0)
     room.mouse(*room.at(400, 100), click=False)
     room.press("f6")
     room.press("escape")
@@ -189,14 +195,14 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
         room.frames(70)
         room.press("r")
     room.press("escape")
-    session._maps.finish(LONGEST)
-    assert session.test_map
-    assert len(session.test_map.deaths) == 2
+    session.playtests.maps.finish(LONGEST)
+    assert session.playtests.map
+    assert len(session.playtests.map.deaths) == 2
     room.frames()
-    died, _ = session.test_map.deaths
+    died, _ = session.playtests.map.deaths
     assert 70 < died[0] < 100
-    assert session.test_map.visits == {(2, 22): 2, (3, 22): 2}
-    assert len(session.tries) == 2, "what is pressed after a death is no test"
+    assert session.playtests.map.visits == {(2, 22): 2, (3, 22): 2}
+    assert len(session.playtests.shown) == 2, "what is pressed after a death is no test"
     room.frames(2)
     x, y = room.app.canvas.point(*room.at(60, 500))
     assert room.app.surface.get_at((x, y)) == plain.get_at((x, y)), "nobody came there"
@@ -211,14 +217,15 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     assert not [key for key in marks if key[0] in ("visit", "death")], "the mine is gone"  # type: ignore[index]
     room.chord("y", pygame.KMOD_LCTRL)
     room.frames()
-    assert (len(session.tries), session.last_death) == (2, (died,)), "those of the level with the mine"
+    playtests = session.playtests
+    assert (len(playtests.shown), playtests.last_deaths) == (2, (died,)), "those of the level with the mine"
     tools = session.tools
     tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY_PART)}))
     tools.nudge(-1, 0)
-    session.tried(session.draft.level, bytes([2] * 20), over=True)
-    assert len([*session.tries]) == 1, "a test in the picture of the change is of the changed level alone"
+    session.add_playtest(session.draft.level, bytes([2] * 20), over=True)
+    assert len([*session.playtests.shown]) == 1, "a test in the picture of the change is of the changed level alone"
     session.begin(Source(ROOM))
-    assert session.test_map is None
+    assert session.playtests.map is None
 
 
 def test_a_test_that_passes_comes_back_by_confirming(room: Maker) -> None:
@@ -244,17 +251,19 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
     room.press("shift+h")
     room.drag((300, 564))
     session = room.editor.session
-    room.wait(lambda: session.examined is room.draft.level, "findings")
-    assert [finding.text for finding in session.findings] == ["it is inside a tile: its rockets explode at once"]
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    assert [finding.text for finding in session.examination.findings] == [
+        "it is inside a tile: its rockets explode at once"
+    ]
     room.frames(2)
     assert [key for key in room.editor.view.sheet.marks if key[0] == "sign"]  # type: ignore[index]
     room.press("f4")
     assert session.tools.selection.parts == {(2, 0)}
-    assert "Move it, or clear the tile." in session.findings[0].advice
+    assert "Move it, or clear the tile." in session.examination.findings[0].advice
     assert room.editor.view.hint == "Problem 1 of 1: the list says how to fix it"
     room.press("delete")
-    room.wait(lambda: session.examined is room.draft.level, "findings")
-    assert not session.findings
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    assert not session.examination.findings
     room.press("f4")
     assert "No problems" in room.app.notice
 
@@ -298,14 +307,15 @@ def test_the_buttons_of_mirror_grid_and_snap_list_what_there_is(room: Maker, nam
     chosen = next(text for text in texts if text.startswith(chosen))
     room.choose(chosen)
     tools, grid = room.editor.session.tools, room.editor.view.grid.name
-    assert {"symmetry": tools.symmetry, "grid": grid, "snap_next": tools.snap}[name] == chosen.lower().split(":")[0]
+    now = {"symmetry": tools.brush.symmetry, "grid": grid, "snap_next": tools.brush.snap}
+    assert now[name] == chosen.lower().split(":")[0]
     room.mouse(*button.centre)
     assert getattr(room.shown(Menu).focus, "text", "") == chosen, "what there is now has the focus"
 
 
 def test_every_command_runs_and_help_names_all_keys(room: Maker) -> None:
     for command in EDITOR_COMMANDS.commands:
-        if command.name not in ("certify", "menu", "test", "test_here"):
+        if command.name not in ("certify", "menu", "playtest", "playtest_here"):
             room.editor.commands.run(command.name)
             room.frames()
             while not isinstance(room.top(), EditorScreen):
@@ -327,7 +337,7 @@ def test_only_what_changed_is_drawn_again_and_it_is_the_same_picture(room: Maker
     room.drag((80, 80), (120, 140))
     room.chord("z", pygame.KMOD_LCTRL)
     session = room.editor.session
-    room.wait(lambda: session.examined is room.draft.level, "findings")
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
     room.frames(2)
     mended = room.app.surface.copy()
     view = room.editor.view
@@ -386,7 +396,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
 
 
 def certified(room: Maker, late: int) -> None:
-    """Have the solver found a run that begins so many ticks late."""
+    """Have the solver found a run that begins this many ticks late."""
     session = room.editor.session
     inputs = with_press_bits(bytes(late) + bytes([2]) * 100)
     session.certifier.certification = Certification(
@@ -448,15 +458,15 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
     why = obstacle(level, 0, Progress(untouched=(exit_,)))
     session.certifier.certification = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
-    room.wait(lambda: session.findings[:1] == [why], "the problem")
+    room.wait(lambda: session.examination.findings[:1] == [why], "the problem")
     room.press("f4")
     assert why.advice.endswith("Make the way there easier, or give the solver more time.")
     assert room.editor.view.hint.startswith("Problem 1 of ")
     assert session.tools.pointer == (120.0, 540.0), "the switch"
     room.press("b")
     room.drag((300, 300))
-    room.wait(lambda: session.examined is room.draft.level, "findings")
-    assert why not in session.findings, "of another level"
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    assert why not in session.examination.findings, "of another level"
 
 
 def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlier_one(room: Maker) -> None:
@@ -465,7 +475,7 @@ def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlie
     address = id(lists[0])
 
     def key() -> object:
-        with patch.object(type(part.session), "findings", lists[-1]):
+        with patch.object(type(part.session.examination), "findings", lists[-1]):
             part.update(0)
         return part.render_key()
 
@@ -489,7 +499,7 @@ def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
 
 def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     tools = room.editor.session.tools
-    tools.tool, tools.draws_objects = "fill", False
+    tools.tool, tools.brush.draws_objects = "fill", False
     assert tools.effective_tool == "fill"
     before = len(room.draft.objects)
     tools.pick_up(object_of_type("locked door"))
@@ -502,14 +512,13 @@ def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")
 def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> None:
     session = room.editor.session
+    at = session.at_pointer
 
     def shown(x: float, y: float) -> Reach:
         room.mouse(*room.at(x, y), click=False)
-        room.wait(
-            lambda: session.reach and session.reach.ask == (session.draft, session.tools.pointer, STARTS[session.start])
-        )
-        assert session.reach
-        return session.reach
+        room.wait(lambda: at.reach and at.reach.ask == (session.draft, session.tools.pointer, STARTS[at.start]))
+        assert at.reach
+        return at.reach
 
     def edges(found: Reach) -> tuple[float, float]:
         return min(x for x, _, _ in found.spans), max(x + width for x, _, width in found.spans)
@@ -519,7 +528,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     status = next(each for each in room.editor.parts if isinstance(each, StatusLine))
     assert status._text().startswith("Point at a place in the level")
     room.mouse(*room.at(396, 541), click=False)
-    assert session.reach or "compiled" in status._text()
+    assert at.reach or "compiled" in status._text()
     standing = shown(396, 541)
     assert status._text().startswith("In 1 s, standing, the ninja can be where it is shaded, ")
     room.mouse(*LAYOUT.file[:2], click=False)
@@ -550,7 +559,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert len(edge) == 1
     assert 440 < edge[0][0] < 474, "the last place to jump from is at the edge"
     room.press("y", "y")
-    assert session.reach is None
+    assert at.reach is None
     assert "Reached" not in status._text()
 
 
@@ -709,24 +718,24 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
     room.press("i")
     spacing = room.editor.properties.widgets[-1]
     room.mouse(*spacing.centre)
-    assert tools.spacing == 36.0
+    assert tools.brush.spacing == 36.0
     room.mouse(*room.at(60, 204), click=False)
     tools.press()
     tools.move(276, 204)
     room.wheel(2, *room.at(276, 204))
     assert min(spec.values[1] for spec in room.draft.objects[2:]) == 180.0, "the wheel away from oneself bends it up"
     room.editor.view.release()
-    assert tools.spec == object_of_type("gold"), "the palette stayed where it was"
+    assert tools.brush.spec == object_of_type("gold"), "the palette stayed where it was"
 
 
 def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     session = room.editor.session
     level, route = session.draft.level, ((60.0, 542.0), (61.0, 542.0))
     session.certifier.certification = Certification(level, route=route, end="Done")
-    session.tried(level, bytes([2] * 20), over=True)
+    session.add_playtest(level, bytes([2] * 20), over=True)
     room.frames(2)
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
-    session.source = replace(session.source, draft=session.draft)
+    session.edited.source = replace(session.source, draft=session.draft)
     room.chord("n", pygame.KMOD_LCTRL)
     assert getattr(room.editor.properties.widgets[1], "text", "") not in FIRST_STEPS
     room.choose("Empty")
@@ -805,8 +814,8 @@ def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
     find = room.editor.sides[1].widgets[0]
     room.press("f3", "x")
-    assert (tools.snap, view.listing) == ("half", True), "the list alone takes no keys"
-    tools.snap = "cell"
+    assert (tools.brush.snap, view.listing) == ("half", True), "the list alone takes no keys"
+    tools.brush.snap = "cell"
     room.press("f3")
     for leave in ("return", "escape"):
         room.chord("f", pygame.KMOD_LCTRL)
@@ -814,11 +823,11 @@ def test_find_has_the_keys_from_the_start_until_it_is_left(room: Maker) -> None:
         room.wheel(1, 100, 540)
         room.type("gol")
         assert isinstance(find, TextEntry)
-        assert (find.text, tools.snap, tools.draws_objects) == ("gol", "cell", False)
+        assert (find.text, tools.brush.snap, tools.brush.draws_objects) == ("gol", "cell", False)
         room.press(leave)
         room.type("x")
-        assert (room.editor.focus, tools.snap, view.listing) == (None, "half", True)
-        tools.snap = "cell"
+        assert (room.editor.focus, tools.brush.snap, view.listing) == (None, "half", True)
+        tools.brush.snap = "cell"
         find.show("")
         room.press("f3")
 
@@ -842,10 +851,10 @@ def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> Non
     goal = maker.app.canvas.point(*maker.at(400, 300))
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=goal, rel=(0, 0), buttons=(1, 0, 0), touch=False))
     maker.frames()
-    spec, drawn = tools.spec, maker.draft
+    spec, drawn = tools.brush.spec, maker.draft
     assert drawn.objects
     maker.wheel(1, *maker.at(400, 300))
-    assert (tools.spec, maker.draft) == (spec, drawn)
+    assert (tools.brush.spec, maker.draft) == (spec, drawn)
     maker.press("escape")
     assert not maker.draft.objects, "it was still being drawn"
     assert maker.editor.view.camera.zoom == 1
@@ -911,9 +920,9 @@ def test_a_key_beside_an_entry_of_the_palette_takes_it_whatever_was_used_before(
             if key in letters:
                 assert palette._in_hand is letters[key]
             else:
-                assert not tools.draws_objects
-                assert tools.tile in TILE_KEYS or tools.tile in FAMILIES[int(key) - 1].tiles
-                assert TILE_KEYS.get(tools.tile, key) == key
+                assert not tools.brush.draws_objects
+                assert tools.brush.tile in TILE_KEYS or tools.brush.tile in FAMILIES[int(key) - 1].tiles
+                assert TILE_KEYS.get(tools.brush.tile, key) == key
     shown = []
     for _ in ("objects", "tiles"):
         shown.append(drawn(room.app))
@@ -978,22 +987,22 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     session, drone = room.editor.session, object_of_type("zap drone")
     room.press("shift+z")
     room.mouse(*room.at(300, 540), click=False)
-    room.wait(lambda: session.drone_round, "the round of the drone in hand")
+    room.wait(lambda: session.at_pointer.drone_round, "the round of the drone in hand")
     run = Simulation(with_stamp(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
     thing = next(each for each in run.world.objects if each.kind == DRONE)
-    for place in session.drone_round[:300]:
+    for place in session.at_pointer.drone_round[:300]:
         run.step_keys(0)
         assert (thing.x, thing.y) == place
     room.frames()
     assert any(isinstance(key, tuple) and key[0] == "route" for key in room.editor.view.sheet.marks)
     room.press("grave")
     room.frames()
-    assert not session.drone_round
+    assert not session.at_pointer.drone_round
     room.drag((300, 540))
-    assert not session.drone_round
+    assert not session.at_pointer.drone_round
     session.tools.history.change(with_stamp(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
     session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY_PART)}))
-    room.wait(lambda: session.drone_round, "the round of the drone that is selected")
+    room.wait(lambda: session.at_pointer.drone_round, "the round of the drone that is selected")
 
 
 def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_path: Path) -> None:
@@ -1082,7 +1091,7 @@ def test_a_click_beside_a_list_below_its_button_closes_it(room: Maker) -> None:
     before = room.draft
     room.mouse(300, 400)
     assert isinstance(room.top(), EditorScreen)
-    assert (room.draft, room.editor.session.tools.symmetry) == (before, "off")
+    assert (room.draft, room.editor.session.tools.brush.symmetry) == (before, "off")
 
 
 def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: Path) -> None:
@@ -1098,7 +1107,7 @@ def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     assert room.app.notice.startswith("Saved")
     room.press("f5")
-    assert isinstance(room.top(), TryScreen)
+    assert isinstance(room.top(), PlaytestScreen)
     assert not room.app.notice
     room.press("escape")
     room.drag((300, 300))
@@ -1119,10 +1128,10 @@ def test_what_went_wrong_is_still_said_over_a_screen_that_opens_then(room: Maker
 def test_the_panel_tells_which_letters_change_what_is_in_hand(room: Maker) -> None:
     tools = room.editor.session.tools
     room.press("shift+z")
-    before = tools.spec
+    before = tools.brush.spec
     room.press("e")
-    assert tools.draws_objects
-    assert tools.spec != before, "it has a movement"
+    assert tools.brush.draws_objects
+    assert tools.brush.spec != before, "it has a movement"
     labels = [each.text for each in room.editor.properties.widgets if isinstance(each, Label)]
     assert labels[1:] == ["Q E: movement", "W A S D: direction", "N: seeker"]
 
@@ -1173,8 +1182,10 @@ def test_the_panel_says_what_becomes_of_the_run(room: Maker, tmp_path: Path) -> 
 
 def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     session = room.editor.session
-    room.wait(lambda: session.examined is room.draft.level, "findings")
-    session._checks.result = room.draft.level, [Finding("no-exit", "word " * 60), Finding("no-ninja", "none")]
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    session.examination.job.result = Examined(
+        room.draft.level, [Finding("no-exit", "word " * 60), Finding("no-ninja", "none")]
+    )
     room.frames(2)
     part = next(each for each in room.editor.parts if isinstance(each, Findings))
     assert [number for number, _ in part._lines] == [0, 0, 0, 1]
@@ -1185,8 +1196,10 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
 
 def test_the_problem_that_f4_goes_to_is_in_sight_in_the_list(room: Maker) -> None:
     session = room.editor.session
-    room.wait(lambda: session.examined is room.draft.level, "findings")
-    session._checks.result = room.draft.level, [Finding("no-exit", f"word {number}") for number in range(12)]
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    session.examination.job.result = Examined(
+        room.draft.level, [Finding("no-exit", f"word {number}") for number in range(12)]
+    )
     part = next(part for part in room.editor.parts if isinstance(part, Findings))
     for number in range(12):
         room.press("f4")
@@ -1246,7 +1259,7 @@ def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
     assert (bool(tools.ghost), room.draft == before) == (False, False)
 
 
-def test_a_second_exit_is_told_of(room: Maker) -> None:
+def test_a_second_exit_is_reported(room: Maker) -> None:
     room.press("shift+e")
     room.drag((300, 300))
     assert not room.app.notice, "its switch is still in hand"
@@ -1294,7 +1307,7 @@ def test_without_a_selection_delete_takes_only_what_is_pointed_at(room: Maker) -
 def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
     tools = room.editor.session.tools
     tools.pick_up(object_of_type("launch pad"))
-    tools.spec = tools.spec._replace(values=(*tools.spec.values[:2], 0.0, -1.0))
+    tools.brush.spec = tools.brush.spec._replace(values=(*tools.brush.spec.values[:2], 0.0, -1.0))
     room.drag((12 * 24 + 12, 22 * 24 + 12))
     pad = len(room.draft.objects) - 1
     assert pad in chosen_in(room.draft, (12, 22, 1, 1)).numbers
@@ -1302,12 +1315,13 @@ def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
 
 def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None:
     session = room.editor.session
-    room.wait(lambda: session.examined is room.draft.level, "findings")
+    room.wait(lambda: session.examination.level is room.draft.level, "findings")
     session.begin(Source(with_stamp(Draft(Level()), Stamp({(3, 3): 1}))))
-    assert (session.examined, session._reaches.result, session.findings) == (None, None, [])
+    examination, reaches = session.examination, session.at_pointer.reaches
+    assert (examination.level, reaches.result, examination.findings) == (None, None, [])
     room.press("f4")
     assert "No problems" not in room.app.notice
-    assert session.examined is room.draft.level
+    assert session.examination.level is room.draft.level
 
 
 def test_grey_buttons_that_align_say_why(room: Maker) -> None:
@@ -1386,7 +1400,7 @@ def test_a_clicked_bubble_is_shown_in_the_panel_from_which_it_opens(room: Maker)
 def test_flat_ends_of_a_bent_line_with_slopes_are_square(room: Maker, symmetry: str) -> None:
     tools = room.editor.session.tools
     room.editor.session.set_slopes(True)
-    tools.tool, tools.symmetry = "line", symmetry
+    tools.tool, tools.brush.symmetry = "line", symmetry
     tools.move(60, 480)
     tools.press()
     tools.move(340, 400)

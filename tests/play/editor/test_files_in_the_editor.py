@@ -187,7 +187,7 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
         maker.keys.script = [2] * 300
         maker.press("right")
         maker.frames(320)
-        assert maker.editor.session.tries[-1].over, "a room can be passed as it is"
+        assert maker.editor.session.playtests.shown[-1].over, "a room can be passed as it is"
         maker.press("space")
         assert isinstance(maker.top(), EditorScreen)
     else:
@@ -197,12 +197,12 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
 
 def unwatched(maker: Maker) -> None:
     """The editor does not see by itself that its file changes."""
-    maker.editor.session._looked_at = inf
+    maker.editor.session.edited.looked_at = inf
 
 
 def watched(maker: Maker) -> None:
     """The editor looks at its file now."""
-    maker.editor.session._looked_at = -inf
+    maker.editor.session.edited.looked_at = -inf
     maker.frames(2)
 
 
@@ -270,7 +270,7 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     session = room.editor.session
     room.wait(lambda: list((tmp_path / EDITING).glob("*.json")), "autosave")
     lost = session.draft
-    session.autosave.close(keep=True)
+    session.edited.autosave.close(keep=True)
     room.app.stack.clear()
     room.app.push(MainMenu(room.app))
     assert room.button("Editor").hint == "Not saved last time: Room"
@@ -299,7 +299,7 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
 def test_what_another_window_goes_on_with_is_not_recovered_twice(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
     room.wait(lambda: list((tmp_path / EDITING).glob("*.json")), "autosave")
-    room.editor.session.autosave.close(keep=True)
+    room.editor.session.edited.autosave.close(keep=True)
     room.app.stack.clear()
     room.app.push(MainMenu(room.app))
     room.open("Editor")
@@ -356,7 +356,7 @@ def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(
     monkeypatch.setattr(room.app, "frame", end)
     with pytest.raises(Terminated):
         room.app.run()
-    session.autosave.close(keep=True)
+    session.edited.autosave.close(keep=True)
     assert [found.draft for found in lost_drafts(tmp_path)] == [session.draft]
 
 

@@ -22,8 +22,8 @@ from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_message
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
-from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _PICTURE, _WHEN, MessagesScreen
+from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import message_places
 from ninja_game.play.level.hud_view import hud_view
@@ -164,7 +164,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     assert room.draft.says == ""
     room.chord("y", pygame.KMOD_LCTRL)
     room.press("f5")
-    assert [each.text for each in room.shown(TryScreen).play.playthrough.messages()] == ["run", "out", "on"]
+    assert [each.text for each in room.shown(PlaytestScreen).play.playthrough.messages()] == ["run", "out", "on"]
 
 
 def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: Maker) -> None:
@@ -399,7 +399,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
     for row in range(3):
         select(room, row)
         room.choose("Test")
-        trying = room.shown(TryScreen)
+        trying = room.shown(PlaytestScreen)
         places.append((trying.attempt.simulation.ninja.x, len(trying.play.playthrough.messages())))
         room.press("escape")
         assert room.top() is screen
@@ -407,7 +407,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
     screen.messages[1].detail = "20,22 9x5"
     select(room, 1)
     room.choose("Test")
-    assert room.shown(TryScreen).attempt.simulation.ninja.x == 15 * 24 + 12.0, "before its wider frame"
+    assert room.shown(PlaytestScreen).attempt.simulation.ninja.x == 15 * 24 + 12.0, "before its wider frame"
     room.press("escape")
     screen.messages[0].text = ""
     room.choose("Test")
@@ -464,7 +464,7 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     shown = screen._known.result[2]
     assert len(shown) > 3, "the run's way too"
     room.choose("Test")
-    trying = room.shown(TryScreen)
+    trying = room.shown(PlaytestScreen)
     assert trying.attempt.simulation.ninja.x > 300
     assert trying.play.things == shown
     room.press("escape")
@@ -633,7 +633,7 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
     opened(doors, f"death 1: Go | {says}")
     select(doors, 1)
     doors.choose("Test")
-    trying = doors.shown(TryScreen)
+    trying = doors.shown(PlaytestScreen)
     play = trying.play
     for _ in range(2):
         began = play.attempt.simulation.tick
@@ -657,7 +657,7 @@ def test_a_test_of_what_is_said_after_deaths_or_seconds_begins_there(doors: Make
     for row in (1, 2):
         select(doors, row)
         doors.choose("Test")
-        trying = doors.shown(TryScreen)
+        trying = doors.shown(PlaytestScreen)
         texts.append((trying.play.messages.text, trying.attempt.simulation.tick))
         doors.press("escape")
     assert texts == [("Three", 0), ("Go", 8 * 40 - 1)], "the run is over by then: the ninja stands"
@@ -667,11 +667,11 @@ def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monk
     monkeypatch.setattr(type(doors.editor.session), "certifying_inputs", property(lambda _: b""))
     opened(doors, "trap: Now")
     doors.choose("Test")
-    assert doors.shown(TryScreen).attempt.simulation.ninja.x == 24 * 10 + 12.0, "beside the switch"
+    assert doors.shown(PlaytestScreen).attempt.simulation.ninja.x == 24 * 10 + 12.0, "beside the switch"
     doors.press("escape")
-    doors.editor.session.tried(doors.draft.level, RIGHT, over=True)
+    doors.editor.session.add_playtest(doors.draft.level, RIGHT, over=True)
     doors.choose("Test")
-    assert bytes(doors.shown(TryScreen).attempt.inputs) == RIGHT[:26]
+    assert bytes(doors.shown(PlaytestScreen).attempt.inputs) == RIGHT[:26]
 
 
 def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -> None:
@@ -768,7 +768,7 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
     box = boxes[-1]
     doors.choose("OK")
     doors.press("f5")
-    play = doors.shown(TryScreen).play
+    play = doors.shown(PlaytestScreen).play
     if moment == "death 1":
         play.messages.on_death()
         play.messages.at_start()
@@ -806,7 +806,7 @@ def test_a_place_waits_until_the_welcome_was_read_also_while_the_level_waits(roo
     assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
     assert [read_ticks("x" * long) for long in (20, 21)] == [3 * TICKS_PER_SECOND, 4 * TICKS_PER_SECOND]
     room.press("f5")
-    play = room.shown(TryScreen).play
+    play = room.shown(PlaytestScreen).play
     room.frames(waits * 40, ms=25)
     assert not play.attempt.inputs, "it waits at its start"
     room.app.controls.poll = lambda: 4  # type: ignore[method-assign]
@@ -850,7 +850,7 @@ def test_an_important_message_comes_at_once_and_no_trifle_replaces_it(doors: Mak
             assert doors.button("Important: no"), "of the one that is selected now"
         doors.choose("OK")
         doors.press("f5")
-        play = doors.shown(TryScreen).play
+        play = doors.shown(PlaytestScreen).play
         doors.app.controls.poll = lambda: 2  # type: ignore[method-assign]
         play.begin()
         came = [play.messages.text]
@@ -868,7 +868,7 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
     walls = Stamp({(column, row): 1 for row in range(10, 23) for column in (1, 5)}, ())
     room.editor.session.tools.history.change(replace(with_stamp(room.draft, walls), says=says))
     room.press("f5")
-    play, runs = room.shown(TryScreen).play, read_inputs([(1, ".*40 R*12 RJ*20 R*20 L*60 " * 2)]).keys
+    play, runs = room.shown(PlaytestScreen).play, read_inputs([(1, ".*40 R*12 RJ*20 R*20 L*60 " * 2)]).keys
     room.app.controls.poll = iter(runs).__next__  # type: ignore[method-assign]
     play.begin()
     heard = set()
@@ -942,7 +942,7 @@ def test_the_preview_has_the_colours_of_the_levels_place_in_its_pack(maker: Make
     maker.press("escape")
     maker.editor.session.tools.history.change(replace(ROOM, says=maker.draft.says))
     maker.press("f5")
-    assert maker.shown(TryScreen).mood == Mood(1, 0), "and so has a test"
+    assert maker.shown(PlaytestScreen).mood == Mood(1, 0), "and so has a test"
 
 
 def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker) -> None:
@@ -1096,7 +1096,7 @@ def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(r
             assert screen.focus is screen.rows[4][1], "the wrong field, on its page"
             assert screen.focus in screen.widgets
             assert f"text 'Message 5 is wrong. {problem}'" in drawn(room.app)
-    play = room.shown(TryScreen).play
+    play = room.shown(PlaytestScreen).play
     room.press("escape")
     room.choose("OK")
     assert room.draft.says.endswith("after 2.5 s: e")
@@ -1132,7 +1132,7 @@ def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Ma
     assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
     doors.choose("OK")
     doors.press("f5")
-    play = doors.shown(TryScreen).play
+    play = doors.shown(PlaytestScreen).play
     play.begin()
     with patch.object(doors.app.controls, "poll", lambda: 2):
         while not play.messages.text:
@@ -1151,7 +1151,7 @@ def test_a_test_of_gold_in_the_air_begins_on_a_floor_from_which_it_is_taken(
     opened(doors, "start: Welcome | gold 20,19: Now")
     select(doors, 1)
     doors.choose("Test")
-    play = doors.shown(TryScreen).play
+    play = doors.shown(PlaytestScreen).play
     ninja = play.attempt.simulation.ninja
     assert (ninja.y, play.messages.text) == (22 * 24 + 12.0, ""), "on the floor, without what is said at the start"
     assert abs(ninja.x - 20 * 24 - 12) <= 3 * 24

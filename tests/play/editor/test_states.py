@@ -10,13 +10,15 @@ from typing import Any
 import pygame
 import pytest
 
-from ninja_game.editor.brush import object_of_type
 from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.palette import object_of_type
 from ninja_game.editor.solver import Certification, search_of
 from ninja_game.editor.stamp import everything
 from ninja_game.files.user_folder import short_path
-from ninja_game.play.editor.commands import IN_MORE, TryScreen
-from ninja_game.play.editor.parts import FilePart, ObjectList
+from ninja_game.play.editor.commands import IN_MORE
+from ninja_game.play.editor.object_list import ObjectList
+from ninja_game.play.editor.panels import FilePart
+from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import Menu
 from ninja_game.ui.widgets import Button
@@ -46,26 +48,27 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.type("ninja")
     room.frames()
     assert (listed.find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
-    assert (session.tools.symmetry, session.start, session.tools.slopes) == ("left-right", "standing", True)
+    brush = session.tools.brush
+    assert (brush.symmetry, session.at_pointer.start, brush.slopes) == ("left-right", "standing", True)
     room.press("escape")
     room.press("shift+z", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
-    assert (session.tools.symmetry, session.start, session.tools.slopes) == ("off", "off", True)
-    assert (session.tools.draws_objects, session.tools.tool) == (False, "brush")
-    assert session.tools.spec == object_of_type("gold"), "nothing of the hand carries over"
+    assert (session.tools.brush.symmetry, session.at_pointer.start, session.tools.brush.slopes) == ("off", "off", True)
+    assert (session.tools.brush.draws_objects, session.tools.tool) == (False, "brush")
+    assert session.tools.brush.spec == object_of_type("gold"), "nothing of the hand carries over"
     assert (listed.find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
-    assert room.editor.session.tools.slopes
+    assert room.editor.session.tools.brush.slopes
     assert room.app.settings.slopes
     room.mouse(400, 60, click=False)
     assert "Slopes by themselves. " in drawn(room.app)
     room.mouse(*room.editor.properties.widgets[-1].centre)
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
-    assert not room.editor.session.tools.slopes, "the button below the tiles is the same switch"
+    assert not room.editor.session.tools.brush.slopes, "the button below the tiles is the same switch"
 
 
 def test_the_editor_begins_with_a_room_without_problems(tmp_path: Path) -> None:
@@ -98,11 +101,11 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
     assert hints == ["Key at the pointer: F6", *(f"Key: {key}" for key in keys), ""]
     assert len(hints) == len(IN_MORE) + 2
     room.choose("What can be reached from the pointer")
-    assert room.editor.session.start == "standing"
+    assert room.editor.session.at_pointer.start == "standing"
     room.choose("More")
     room.choose("Test with the ninja at a click")
     room.drag((300, 400))
-    ninja = room.shown(TryScreen).attempt.simulation.world.ninja
+    ninja = room.shown(PlaytestScreen).attempt.simulation.world.ninja
     assert abs(ninja.x - 300) < 12
 
 
@@ -125,7 +128,7 @@ def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
     text = (PACK / f"{name}.txt").read_text("utf-8").replace("@", ".", 1)
     (levels / "mine.txt").write_text(text, "utf-8")
     room.editor.commands.open_file(levels / "mine.txt")
-    session._known_runs.finish()
+    session.edited.known_runs.finish()
     room.frames()
     assert session.certifier.text == "", "of another level"
 

@@ -68,10 +68,10 @@ def zoomed_in(room: Maker) -> Looker:
 
 def test_the_wheel_zooms_about_the_pointer_and_all_can_be_seen_again(room: Maker) -> None:
     view, tools = room.editor.view, room.editor.session.tools
-    tile = tools.tile
+    tile = tools.brush.tile
     for notches, zoom in ((1, 1.19), (1, 1.41), (2, 2), (4, 4), (1, 4), (-4, 2), (-3, 1.19), (-1, 1), (-1, 1)):
         room.wheel(notches, *room.at(300, 400))
-        assert tools.tile == tile
+        assert tools.brush.tile == tile
         assert view.camera.zoom == pytest.approx(zoom, abs=0.01)
         assert tools.pointer == pytest.approx((300, 400), abs=1.5)
         centre = view.camera.centre
@@ -92,11 +92,11 @@ def test_the_wheel_zooms_about_the_pointer_and_all_can_be_seen_again(room: Maker
 
 def test_the_wheel_over_the_palette_takes_the_next_entry(room: Maker) -> None:
     tools, (x, y) = room.editor.session.tools, (700, 140)
-    before = tools.tile
+    before = tools.brush.tile
     room.wheel(-1, x, y)
-    assert (tools.tile != before, room.editor.view.camera.zoom) == (True, 1)
+    assert (tools.brush.tile != before, room.editor.view.camera.zoom) == (True, 1)
     room.wheel(1, x, y)
-    assert tools.tile == before
+    assert tools.brush.tile == before
 
 
 def test_tools_draw_and_erase_where_the_mouse_is(near: Looker) -> None:
@@ -110,7 +110,7 @@ def test_tools_draw_and_erase_where_the_mouse_is(near: Looker) -> None:
     drawn = near.room.draft
     assert [drawn.tile((5, 18)), drawn.tile((10, 20)), drawn.tile((11, 20)), drawn.tile((8, 15))] == [0, 1, 0, 1]
     near.tools.pick_up(ObjectSpec(GOLD, (36.0, 36.0)))
-    near.tools.snap, near.tools.tool = "quarter", "brush"
+    near.tools.brush.snap, near.tools.tool = "quarter", "brush"
     near.cells((7, 19))
     x, y = middle_of((7, 19))
     near.drag(near.px((x + 31, y + 5)))
@@ -139,11 +139,11 @@ def test_the_middle_button_drags_the_level_and_picks_where_it_stays(near: Looker
     near.tools.pick_up(0)
     at, under = near.px(middle_of((5, 23))), middle_of((5, 23))
     near.drag(at, (at[0] + 1, at[1]), button=2)
-    assert near.tools.tile == 1, "a hand trembles"
+    assert near.tools.brush.tile == 1, "a hand trembles"
     near.tools.pick_up(0)
     centre = near.view.camera.centre
     near.drag(at, (at[0] - 60, at[1] - 30), (at[0] - 80, at[1] - 40), button=2)
-    assert near.tools.tile == 0
+    assert near.tools.brush.tile == 0
     assert near.view.camera.centre[0] > centre[0]
     assert near.px(under)[0] == pytest.approx(at[0] - 80, abs=1)
     assert near.tools.cell[0] == 5
@@ -204,7 +204,7 @@ def test_a_level_that_is_moved_keeps_what_was_drawn_and_draws_the_rest(near: Loo
 
 def test_a_path_is_seen_wherever_the_level_was_enlarged(near: Looker) -> None:
     near.view.camera.move(near.view.overlay.area.size, -900, -900)
-    near.room.editor.session.last_try = tuple((700.0 - k, 560.0) for k in range(200))
+    near.room.editor.session.playtests.last_route = tuple((700.0 - k, 560.0) for k in range(200))
     near.view._laid_out = ()
     near.room.frames(1)
     assert near.room.app.surface.get_at(near.px((650, 560)))[:3] == near.room.app.theme.palette.ghost[:3]
@@ -241,8 +241,8 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(
     room.frames(2)
     near = Looker(room)
     near.view.show_grid(GRIDS[3])
-    near.tools.symmetry = "both"
-    room.editor.session.last_try = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
+    near.tools.brush.symmetry = "both"
+    room.editor.session.playtests.last_route = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
     if zoom == 4:
         near.view.zoom(1)
     # Signs come when the level has been examined.

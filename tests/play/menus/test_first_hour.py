@@ -22,7 +22,8 @@ from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.runs.deaths import SELF
 from ninja_game.runs.messages import (
     _FADE_TICKS,
@@ -151,7 +152,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
     assert bands * 4 >= texts * 3, "along the upper or the lower border, but for few"
 
 
-def test_goal_is_not_said_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
+def test_goal_is_not_shown_again_in_a_level_that_was_passed(driver: MenuDriver) -> None:
     level = driver.open_level()
     level.begin()
     driver.play_replay(1)
@@ -529,7 +530,7 @@ def test_level_without_its_certificate_races_the_best_run(driver: MenuDriver) ->
 
 
 def stuck_level(driver: MenuDriver) -> LevelScreen:
-    """The first level, after so many deaths that help is offered."""
+    """The first level, after this many deaths that help is offered."""
     level = driver.open_level()
     for number in range(STUCK_AFTER):
         if number:
@@ -694,7 +695,7 @@ def test_a_text_knows_its_place_until_another_comes() -> None:
     simulation = Simulation(room_level(["#@..#"], ()))
     simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
     heard = [(tick, queued.text) for tick in range(1, 200) if queued.on_tick(simulation.world)]
-    assert heard == [(read_ticks("Go"), "Here")], "what is said at the start is read first"
+    assert heard == [(read_ticks("Go"), "Here")], "the start's message is read first"
     assert hud_place(queued) == (84.0, 540.0)
     queued.at_start()
     assert hud_place(queued) is None
@@ -709,7 +710,7 @@ WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
 
 
 def climb(keys: str) -> tuple[list[str], float]:
-    """What is said in a well in which one plays so, and the greatest height, px."""
+    """The messages in a well with these keys, and the greatest height, px."""
     simulation, messages = Simulation(WELL), MessageQueue((), helps=True)
     seen, floor, height = [], simulation.world.ninja.y, 0.0
     for each in read_inputs([(1, keys)]).keys:

@@ -204,12 +204,12 @@ def test_edge_states_follow_paint_and_door() -> None:
     for side in range(4):
         figure.side = side
         cell, neighbour = figure.cell, figure.cell + NEIGHBOUR_OFFSET[side]
-        assert figure.tiles.tiles[cell] == 5
-        own, other = FACE[4 * 5 + side], FACE[4 * figure.tiles.tiles[neighbour] + (side ^ 2)]
+        assert figure.tiles.ids[cell] == 5
+        own, other = FACE[4 * 5 + side], FACE[4 * figure.tiles.ids[neighbour] + (side ^ 2)]
         assert numbers(figure)["3. the state"] == EDGE_WORDS[EDGE_OF_FACES[3 * own + other]]
     assert figure.is_open, "painting moves no door"
     figure.press(60, 60)
-    assert figure.tiles.tiles[figure.cell] == 0
+    assert figure.tiles.ids[figure.cell] == 0
 
 
 @pytest.mark.parametrize("box", [False, True])

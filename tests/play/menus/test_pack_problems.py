@@ -194,7 +194,7 @@ def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(desk: Desk) -> No
     assert screen.shelves.cells[1].level
     packs.accept(desk.path, level.name, "no-ninja", "a joke")
     editor.commands.edit_entry(screen.shelves.cells[1].level)
-    assert "no-ninja" not in editor.session.accepted, "the pack's check does not accept it either"
+    assert "no-ninja" not in editor.session.edited.accepted, "the pack's check does not accept it either"
     editor.session.examine()
     desk.frames(2)
     text = drawn(desk.app)

@@ -98,7 +98,7 @@ def test_the_page_of_problems_and_the_desk_go_on_from_a_zip(desk: Desk, zipped: 
     screen = zipped
     assert desk.app.notice
     desk.choose("Problems")
-    assert desk.app.notice == "", "what is said there goes with the screen"
+    assert desk.app.notice == "", "its notice goes with the screen"
     assert [problem.step for problem in desk.problem_page().problems] == ["Make ready"]
     assert "0 problems" in drawn(desk.app)
     desk.press("escape")
@@ -175,7 +175,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     grid.grid.index = 1
     packs.rename_episode(desk.path, 1, "Wash day")
     go_on.set()
-    desk.wait(lambda: desk.app.notice == "Laundry is ready to share", "it is said elsewhere")
+    desk.wait(lambda: desk.app.notice == "Laundry is ready to share", "it is shown elsewhere")
     assert (grid.episode and grid.episode.name) == "Wash day", "what is shown there is as new"
     desk.press("escape")
     assert desk.shown(PackScreen).packer.text == (

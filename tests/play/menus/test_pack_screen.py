@@ -27,6 +27,7 @@ from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.pack_shelves import PackCell
 from ninja_game.play.menus.packer import Packer
 from ninja_game.play.menus.packs import PackScreen
+from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Task
@@ -103,14 +104,18 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     assert not screen.marked
     screen.enter()
     desk.click(desk.place(3))
-    assert desk.shown(MenuScreen).title == "Mind the Gap", "a second click opens its menu, however late it comes"
-    desk.choose("Cancel")
+    editor = desk.shown(EditorScreen)
+    assert editor.session.name == "Mind the Gap", "a second click opens the editor, however late it comes"
+    editor.commands.close()
+    desk.click(desk.place(3))
+    assert desk.top() is screen, "back here it takes two clicks again"
     desk.click(desk.place(5), pygame.KMOD_SHIFT)
     desk.carry(desk.place(4), desk.half(7))
     assert desk.layout()[0] == ["00-0", "00-3", "00-1", "00-2", "00-4"], "no room for three: all stay"
     assert "episode 2 is full" in desk.app.notice
     shelves.index = 3
-    desk.press("return")
+    desk.click(desk.place(3))
+    desk.click(desk.place(3))
     assert desk.shown(MenuScreen).title == "3 levels"
     assert [each.text for each in desk.shown(MenuScreen).widgets] == ["Move...", "Copy", "Take out", "Cancel"]  # type: ignore[attr-defined]
     desk.choose("Take out")
@@ -229,7 +234,7 @@ def test_a_level_of_the_players_folder_goes_into_the_pack_and_one_of_the_game_is
 def test_everything_about_a_pack_is_named_again(desk: Desk, screen: PackScreen) -> None:
     for index, entry, text in ((1, "Rename...", "Early steps"), (0, "Rename...", "Falls"), (0, "New level...", "New")):
         desk.mouse(*(value + 20 for value in desk.place(index)[:2]))
-        desk.mouse(*(value + 20 for value in desk.place(index)[:2]))
+        desk.press("return")
         desk.choose(entry)
         if entry == "New level...":
             desk.fill(text, "OK")
@@ -296,7 +301,7 @@ def test_what_the_editor_certified_is_certified_in_the_folder_too(desk: Desk) ->
     desk.shown(LevelScreen)
 
 
-def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
+def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_reported(
     empty_desk: Desk, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     levels, go_on, reports = empty_desk.player.folder / "levels", Event(), list[str]()
@@ -319,7 +324,6 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_told_of(
     for index in (0, 1):
         for _ in "12":
             empty_desk.mouse(*(value + 30 for value in screen.tray.row_area(index)[:2]))
-        empty_desk.choose("Edit")
         empty_desk.press("f7")
         empty_desk.choose_in_menu("Leave the editor")
         empty_desk.shown(PackScreen)
@@ -359,7 +363,7 @@ def test_a_pack_that_is_deleted_can_be_found_again(desk: Desk, screen: PackScree
         desk.choose(answer)
         assert (desk.path.exists(), bool(screen.own_packs)) == (there, there)
     assert Pack(desk.player.folder / "deleted" / "laundry").name == "Laundry"
-    assert not any((screen.packer.text, screen.packer.saved)), "nothing is said of what is gone"
+    assert not any((screen.packer.text, screen.packer.saved)), "no text about what is gone"
     assert "in the folder deleted/laundry now" in desk.app.notice.replace("\\", "/")
 
 
@@ -421,11 +425,12 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     desk: Desk, own: Path, screen: PackScreen
 ) -> None:
     free = desk.place(11)
-    for mods, done in ((pygame.KMOD_LCTRL, "Copied"), (0, "Moved")):
+    texts = {pygame.KMOD_LCTRL: "Copied Mine from your folder", 0: "Moved Mine from your folder; Ctrl copies instead"}
+    for mods, done in texts.items():
         desk.carry(screen.tray.row_area(0), free, drop=False)
-        assert "with Ctrl, a copy" in drawn(desk.app)
+        assert "with Ctrl it is copied" in drawn(desk.app)
         desk.let_go(free, mods)
-        assert desk.app.notice == f"{done} Mine from your folder. Undo, or Ctrl+Z, takes it back"
+        assert desk.app.notice == f"{done}. Undo, or Ctrl+Z, takes it back"
         assert (own.exists(), (desk.path / "mine.txt").exists()) == (bool(mods), True)
         desk.choose("Undo")
         assert (own.exists(), (desk.path / "mine.txt").exists()) == (True, False)
@@ -612,3 +617,45 @@ def test_a_notice_leaves_the_line_of_hints_free(desk: Desk) -> None:
         rect = notice_box(desk.app)
         assert rect.top >= 0
         assert rect.bottom < 200
+
+
+def test_the_editor_leads_to_the_packs_and_edits_what_is_opened_there(
+    desk: Desk, own: Path, screen: PackScreen
+) -> None:
+    def shelves_of_the_editor() -> PackScreen:
+        desk.choose_in_menu("Packs...")
+        return desk.shown(PackScreen)
+
+    desk.click(screen.tray.row_area(0))
+    desk.click(screen.tray.row_area(0))
+    editor = desk.shown(EditorScreen)
+    shown = shelves_of_the_editor()
+    shown.choose_tray("yours")
+    desk.carry(shown.tray.row_area(0), shown.shelves.row_area(11))
+    assert not own.exists()
+    desk.press("escape")
+    assert desk.top() is editor
+    assert (editor.session.source.path, editor.session.is_saved) == (desk.path / "mine.txt", True), (
+        "it follows its file"
+    )
+    editor.session.tools.history.change(editor.session.draft.with_tiles({(9, 9): 1}))
+    shown = shelves_of_the_editor()
+    for _ in range(2):
+        desk.click(shown.shelves.row_area(1))
+    desk.choose("Cancel")
+    assert desk.top() is editor
+    assert editor.session.name == "Mine"
+    shown = shelves_of_the_editor()
+    for _ in range(2):
+        desk.click(shown.shelves.row_area(1))
+    desk.choose("Discard changes")
+    assert desk.top() is editor
+    assert editor.session.name == "First Steps"
+    shelves_of_the_editor()
+    desk.choose("Problems")
+    page = desk.problem_page()
+    page.problems = [Problem("01-0: odd", go=lambda: shown.edit(shown.levels()[5], None))]
+    desk.choose("Go there")
+    assert desk.top() is editor
+    assert not [other for other in desk.app.stack._screens if isinstance(other, ProblemsScreen)]
+    editor.session.close()

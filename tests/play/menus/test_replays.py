@@ -23,7 +23,7 @@ MANY = 10_000
 
 
 def with_replays(folder: Path, count: int) -> None:
-    """Records with so many replays of one level, each with a name of its own."""
+    """Records with this many replays of one level, each with a name of its own."""
     player = PlayerData(folder)
     player.open_records()
     recording = load_replays(bundled_replays()[0])[0]

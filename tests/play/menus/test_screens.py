@@ -237,7 +237,7 @@ def test_replay_of_the_game_is_watched(driver: MenuDriver) -> None:
     assert isinstance(driver.top(), ReplaysScreen)
 
 
-def test_damaged_files_are_told_of_in_the_menu(tmp_path: Path) -> None:
+def test_damaged_files_are_reported_in_the_menu(tmp_path: Path) -> None:
     (tmp_path / "records.sqlite").write_bytes(b"rubbish" * 500)
     (tmp_path / "settings.toml").write_text("not [ toml")
     driver = MenuDriver(tmp_path)
@@ -266,7 +266,7 @@ def test_odd_names_and_a_level_without_ninja_stop_no_screen(driver: MenuDriver) 
     assert len(list((driver.player.folder / "exports").iterdir())) == 1
 
 
-def test_damaged_rows_are_told_of_where_they_are_missing(driver: MenuDriver) -> None:
+def test_damaged_rows_are_reported_where_they_are_missing(driver: MenuDriver) -> None:
     driver.player.store.connection.execute("INSERT INTO death VALUES ('mine', 'often')")
     driver.player.store.connection.execute("INSERT INTO progress VALUES ('', 0, 'far', 0, 0, 0)")
     driver.player.store.epoch += 1

@@ -14,7 +14,8 @@ from ninja_game.play.level.level_play import DEATH_PAUSE, STAMP_TICKS, TRIES_FRO
 from ninja_game.play.level.passed import FEAST_TICKS, EpisodePassed
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.window import WIPE_MS
-from ninja_game.player.playthrough import EpisodePlaythrough, LevelPlaythrough
+from ninja_game.player.episode_playthrough import EpisodePlaythrough
+from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.sim.events import LANDED, MINE_EXPLODED
 from ninja_game.sim.kinds import EXIT
 from ninja_game.simulation import Simulation
@@ -96,7 +97,7 @@ def test_card_says_one_thing_large_one_next_and_the_rest_short(driver: MenuDrive
     level.play.all_gold = 0
     assert "New medal" in hud_view(level.play).end.lines  # type: ignore[union-attr]
     level.play.notices = []
-    assert len(hud_view(level.play).end.lines) == 4, "without gold nothing is said of it"  # type: ignore[union-attr]
+    assert len(hud_view(level.play).end.lines) == 4, "without gold no line is about it"  # type: ignore[union-attr]
 
 
 def test_panel_of_an_end_has_one_place_unless_it_would_hide_that_end_or_an_exit(driver: MenuDriver) -> None:

@@ -313,7 +313,7 @@ def test_the_rest_of_another_run_goes_on_in_the_same_direction(at: TasDriver) ->
     right, left = [KEY_RIGHT], [KEY_LEFT]
     editor.edit(lambda track: track.replaced(0, len(track), right * 40))
     there_and_back = editor.track.replaced(0, 40, right * 20 + left * 60 + right * 60)
-    at.screen.level.others.open([at.session.recording(there_and_back, "to and fro")])
+    at.screen.level.others.open([at.session.recording(there_and_back, "back and forth")])
     other = editor.others[0]
     x = other.trajectory.positions[:, 0]
     editor.go(10)

@@ -105,7 +105,7 @@ def test_undo_selects_again_what_a_key_has_changed(at: TasDriver) -> None:
     at.app.notify("something")
     at.chord("z", pygame.KMOD_LCTRL)
     assert (at.editor.selection, at.editor.track.inputs) == ((30, 35), OURS.inputs)
-    assert at.app.notice == "Undone: keys from tick 30 on, 5 ticks fewer", "what was said before is gone"
+    assert at.app.notice == "Undone: keys from tick 30 on, 5 ticks fewer", "the notice before it is gone"
     at.press("backspace")
     assert (at.editor.selection, len(at.editor.track)) == ((30, 31), 55)
     at.chord("z", pygame.KMOD_LCTRL)

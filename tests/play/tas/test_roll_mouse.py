@@ -130,7 +130,8 @@ def test_what_is_under_the_mouse_is_named_in_full(at: TasDriver) -> None:
     at.mouse(*at.cell(20, "state"), click=False)
     assert "gold" in at.editor.hint
     at.mouse(100, 100, click=False)
-    assert "gold" not in at.editor.hint
+    at.frames()
+    assert "gold" not in at.editor.hint, "the mouse has left the roll"
 
 
 def test_columns_are_hidden_from_their_heads(at: TasDriver) -> None:

@@ -808,7 +808,7 @@ def test_a_speed_of_two_digits_has_room(at: TasDriver) -> None:
 
 
 def selected(at: TasDriver, first: int, ticks: int) -> None:
-    """By keys: go to a tick, select so many, ask for a search of them."""
+    """By keys: go to a tick, select this many, ask for a search of them."""
     at.press("escape")
     at.editor.go(first)
     for _ in range(ticks - 1):

@@ -106,7 +106,7 @@ def test_a_comment_is_kept_through_edits_saving_and_loading(at: TasDriver, tab: 
     assert again.file.path == at.session.file.path, "it loses nothing by saving"
 
 
-def test_what_is_wrong_is_told_by_its_word(at: TasDriver, tab: TextTab) -> None:
+def test_an_error_names_the_wrong_word(at: TasDriver, tab: TextTab) -> None:
     typed(at, tab, "R*3 L jr*2")
     assert at.app.notice.startswith("Not changed: word 3: not an input run; found 'jr*2'")
     typed(at, tab, "R*3 L")

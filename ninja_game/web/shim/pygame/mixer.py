@@ -9,6 +9,8 @@ from .host import LINK, error
 
 
 class _Mixer:
+    """The state of pygame's module ``mixer``: one for the page."""
+
     channels: tuple[Channel, ...] = ()
     reserved = 0  # the first channels, which `Sound.play` never uses
 

@@ -78,6 +78,8 @@ def _type(on: bool) -> None:
 
 
 class _Pad:
+    """A gamepad by its number: ``Joystick`` and ``Controller`` in one, as far as the game uses them."""
+
     def __init__(self, number: int) -> None:
         self._number = number
 

@@ -30,7 +30,7 @@ SCREEN = 1  # the number of the canvas that the player sees
 
 
 class DisplayList:
-    """What the page is to paint. ``numbers``: its entries. ``target``: the number of the canvas for the next one."""
+    """The commands for the page's painter, as ``numbers``. ``target``: the number of the next command's canvas."""
 
     def __init__(self) -> None:
         self.numbers = array("d")
