@@ -4,8 +4,6 @@ Numbers are logical px, colours are roles of the palette. ``DrawLog.called``: th
 ``DrawLog.stale``: the screens on which something had not been drawn again that had changed.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager

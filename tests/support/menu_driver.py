@@ -1,7 +1,5 @@
 """What the menus' tests share: the program under the dummy driver, keys pressed by script, time that is counted."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What tests of packs share: the program with a pack of the player's, the places of its cards, and its problems."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Sequence
 from pathlib import Path

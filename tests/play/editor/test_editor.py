@@ -1,7 +1,5 @@
 """The editor in its window: mouse, keys and pads, files and questions, tests, certificates, problems."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

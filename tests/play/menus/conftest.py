@@ -1,7 +1,5 @@
 """The program, fresh for each test: at its main menu, or with the desk of packs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A player's own levels in the list of all levels: certificates, and the authors' runs."""
 
-from __future__ import annotations
-
 import re
 from unittest.mock import patch
 

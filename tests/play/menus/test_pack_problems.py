@@ -1,7 +1,5 @@
 """The problems of a pack: each leads to its place, and is accepted with a reason."""
 
-from __future__ import annotations
-
 import re
 from threading import Event, Thread, current_thread, main_thread
 from unittest.mock import patch

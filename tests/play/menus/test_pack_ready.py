@@ -1,7 +1,5 @@
 """A pack is made ready in the background; its zip and link are what is sent."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

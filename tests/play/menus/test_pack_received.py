@@ -1,7 +1,5 @@
 """Packs that come from elsewhere, by link or zip: they are played, previewed, updated, and copied to be changed."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The desk of packs: with mouse, keys and pad levels are moved, marked and named, and each step is undone."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Callable

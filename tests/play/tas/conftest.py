@@ -1,7 +1,5 @@
 """Somebody at the TAS editor with a run of a small level."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from shutil import copy

@@ -1,7 +1,5 @@
 """Files on the TAS editor: saved, asked about, kept, offered again after a kill; Edit in the replay viewer."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
@@ -340,8 +338,7 @@ def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
 
 def test_a_film_is_made_from_the_menu(at: TasDriver) -> None:
     at.choose_in_menu("Film")
-    viewer = at.top()
-    assert isinstance(viewer, ReplayScreen)
+    viewer = at.shown(ReplayScreen)
     assert viewer.export is not None
     viewer.export.cancel()
 

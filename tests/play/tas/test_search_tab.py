@@ -1,7 +1,5 @@
 """The tab of searches: what is wanted, results put into the run, what ends a search."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from threading import Event, current_thread
@@ -850,8 +848,7 @@ def test_a_preset_takes_the_ticks_that_one_is_on(at: TasDriver, tab: SearchTab) 
     at.press("escape")
     at.editor.go(60)
     at.choose("Presets")
-    menu = at.top()
-    assert isinstance(menu, Menu)
+    menu = at.shown(Menu)
     assert menu.title == "Presets for ticks 60 to 99"
     assert menu.rows()[0][2] == "From tick 60 on, in any way"
     at.choose("Reach the exit sooner")
