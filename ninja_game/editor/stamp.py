@@ -205,7 +205,7 @@ def pasted(draft: Draft, stamp: Stamp, *, empty: bool = False) -> tuple[Draft, S
 def centred(stamp: Stamp, place: Point, step: float) -> Stamp:
     """A stamp moved until its middle is near a place, and it is within the level if it fits.
 
-    It moves by whole cells if it has tiles, else by steps of so many px.
+    It moves by whole cells if it has tiles, else by steps of that size in px.
     """
     cells = [(CELL * column + at, CELL * row + at) for column, row in stamp.tiles for at in (0.0, CELL)]
     # Only pads and doors may lie on the border's edge.

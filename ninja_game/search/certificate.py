@@ -71,7 +71,7 @@ def read_certificate(
 ) -> tuple[Replay, bool] | None:
     """The run of a replay if it still passes a level with the gold wanted, and whether it was made on this level.
 
-    None if the file is missing, or its run does not pass the level. Raises NinjaGameError for a file that is no replay.
+    None if the file is missing, or its run does not pass the level. Raises NinjaGameError for any other file.
     """
     if not path.exists():
         return None
