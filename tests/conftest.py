@@ -1,7 +1,5 @@
 """What all tests share: no real screen, no sound card, examples without a time limit."""
 
-from __future__ import annotations
-
 import gc
 import os
 import signal

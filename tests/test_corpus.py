@@ -1,7 +1,5 @@
 """Each input in tests/corpus goes through its entry point: only our own errors come out (`tool soak.inputs`)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

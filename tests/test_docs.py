@@ -1,7 +1,5 @@
 """What the documents promise: links and section references lead somewhere, named files exist, every tool is listed."""
 
-from __future__ import annotations
-
 import ast
 import inspect
 import io

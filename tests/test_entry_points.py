@@ -1,7 +1,5 @@
 """Whatever reads from outside has a row in SECURITY.md, and each row a test."""
 
-from __future__ import annotations
-
 import ast
 import re
 import tomllib

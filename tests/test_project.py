@@ -1,7 +1,5 @@
 """The project keeps its own promises: commands in documents exist, versions agree."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import tomllib

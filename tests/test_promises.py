@@ -1,7 +1,5 @@
 """What a release promises (docs/stability.md): nothing in it changes unseen."""
 
-from __future__ import annotations
-
 from difflib import unified_diff
 
 from tests.support.promises import RECORDED, promised

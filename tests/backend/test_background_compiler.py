@@ -1,7 +1,5 @@
 """Nobody waits for a compiler: one process compiles everything, and runs go over to what it has made, bit for bit."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Copies and pickles of whatever holds worlds are worlds of their own: equal, and going on alike."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 from collections.abc import Callable

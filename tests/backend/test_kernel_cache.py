@@ -1,7 +1,5 @@
 """The cache of compiled code: it can never run old rules, and whatever is wrong with it, everything works."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Whatever reads worlds reads of each object the fields of its kind only: searches, learning, generator and traces."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game import Batch, Simulation

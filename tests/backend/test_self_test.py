@@ -1,7 +1,5 @@
 """The known run: what computes another one judges nothing."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Batches: the same bits as single stepping, whatever the threads; resets, snapshots, copies, observations."""
 
-from __future__ import annotations
-
 import threading
 from typing import Any
 from unittest.mock import Mock

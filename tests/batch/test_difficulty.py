@@ -1,7 +1,5 @@
 """The measured difficulty: deterministic, zero where nothing can go wrong, larger where more can."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Our environments beside others: each has its row, and what is not installed is named."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks import beside

@@ -1,7 +1,5 @@
 """The grids of benchmarks/: every touching pair exactly once, every query the same by any grid."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

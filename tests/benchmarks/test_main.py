@@ -1,7 +1,5 @@
 """The benchmark: all figures are there, the history notices a changed result, signatures sign everything."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

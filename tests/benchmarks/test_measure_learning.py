@@ -1,7 +1,5 @@
 """The measurement of the learning environments: the bare kernel runs the same ticks as the environments."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks import measure_learning as measured

@@ -1,7 +1,5 @@
 """docs/command-line.md: every line of it is a command that exists; those that only read are run."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from pathlib import Path

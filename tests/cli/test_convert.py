@@ -1,7 +1,5 @@
 """`ninja-game convert`: there and back gives the same levels."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The game in a menu of programs: what is written, and what systems make of it."""
 
-from __future__ import annotations
-
 import io
 import os
 import shutil

@@ -3,8 +3,6 @@
 Real processes, each under one odd setting; what they print is compared byte for byte with that of an ordinary one.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """`ninja-game film`: films of recordings, at the size and speed that were asked for."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path

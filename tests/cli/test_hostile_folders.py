@@ -1,7 +1,5 @@
 """Commands that write several files, into folders with links in them: nothing outside is made, changed or removed."""
 
-from __future__ import annotations
-
 import errno
 import os
 import shutil

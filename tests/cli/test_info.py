@@ -1,7 +1,5 @@
 """`ninja-game info`: facts, warnings, a picture."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """The program as a whole: exit codes, one-line errors, no traceback, a quick `--help`."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

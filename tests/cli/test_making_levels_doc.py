@@ -1,7 +1,5 @@
 """docs/making-levels.md: what it tells to do is done here, from an empty folder to a shared pack."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import subprocess

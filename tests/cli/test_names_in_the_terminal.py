@@ -1,7 +1,5 @@
 """Names that untrusted files have, and names of files, reach a terminal as printable characters."""
 
-from __future__ import annotations
-
 import os
 import re
 import select

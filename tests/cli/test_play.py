@@ -1,7 +1,5 @@
 """`ninja-game play`: what the command line hands to the window."""
 
-from __future__ import annotations
-
 import re
 import sys
 from pathlib import Path

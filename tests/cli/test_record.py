@@ -1,7 +1,5 @@
 """`ninja-game record`, and `convert` to the forms that hold inputs only."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

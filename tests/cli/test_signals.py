@@ -1,7 +1,5 @@
 """Work that ends: Ctrl-C and SIGTERM stop every long command, its workers too, and leave nothing half written."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

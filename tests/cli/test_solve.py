@@ -1,7 +1,5 @@
 """`ninja-game solve`, `improve` and `check`: files, exit codes, messages."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """`ninja-game splits` and `ninja-game compare`: tables for people and programs, pictures, and errors that say where."""
 
-from __future__ import annotations
-
 import csv
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A run has one length and one time, whoever tells it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from click.testing import CliRunner

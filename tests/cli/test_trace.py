@@ -1,7 +1,5 @@
 """`ninja-game trace`: tables, digests, and differences that explain themselves."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """`ninja-game verify`: outcomes, claims, exit codes, and the fields that programs read."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

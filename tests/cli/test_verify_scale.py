@@ -1,7 +1,5 @@
 """`ninja-game verify` on archives: reports, checkpoint logs, workers, clusters."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

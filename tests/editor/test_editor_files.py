@@ -1,7 +1,5 @@
 """Files of the editor: nothing lost on the way, comments kept, nobody's file replaced, drafts found after a crash."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The tools by presses, moves and releases: what a hand at the mouse does, without a window."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from pathlib import Path
 from unittest.mock import patch

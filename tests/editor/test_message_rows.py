@@ -1,7 +1,5 @@
 """Messages as rows of fields, and frames under a drag, without a window."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.editor.message_rows import DETAIL, GRIP, TEXT, TIME, MessageRow, messages_of, moved_frame, sizing

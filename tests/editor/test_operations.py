@@ -1,7 +1,5 @@
 """Operations of the editor: exact inverses, symmetric tiles and objects, selections that move and turn."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import pytest

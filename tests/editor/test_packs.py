@@ -1,7 +1,5 @@
 """Packs under edit: levels and episodes are moved in the index, comments stay; what is right is not done again."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Callable, Iterator

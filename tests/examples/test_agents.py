@@ -1,7 +1,5 @@
 """The agents: what is written is read, a file without one is named; the learned one passes new levels without JAX."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The protocol: an agent is measured in every level, and a folder of results becomes a table and curves."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

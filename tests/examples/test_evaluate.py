@@ -1,7 +1,5 @@
 """The program that measures an agent: its table, and what is wrong with the words that it is given."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

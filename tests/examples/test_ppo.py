@@ -1,7 +1,5 @@
 """The method by itself: advantages by their definition, the way that it is paid for; the same seed, the same agent."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Several seeds at once: processes play what one would, and every seed learns for itself."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The adapter for Stable-Baselines3, where that is installed: its vector is ours, and its agents learn in it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The search agent: it finds runs by save and restore alone, the same ones by the same seed."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

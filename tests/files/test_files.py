@@ -1,7 +1,5 @@
 """Files are written whole or not at all, never where that would destroy something, and are read safely."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

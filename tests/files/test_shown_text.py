@@ -1,7 +1,5 @@
 """Names are data: whatever stands in them, what is shown is one line of printable characters."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

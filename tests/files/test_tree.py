@@ -1,7 +1,5 @@
 """Writing below a folder: whatever lies in it, and whatever a name says, nothing outside is made, changed, removed."""
 
-from __future__ import annotations
-
 import errno
 import os
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """Untrusted containers: TOML that is read in time, zips that take no more memory than they may."""
 
-from __future__ import annotations
-
 import io
 import struct
 import time

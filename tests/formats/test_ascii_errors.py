@@ -1,7 +1,5 @@
 """Every mistake in an ASCII level: the message names file, line and column, what was found and how to fix it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

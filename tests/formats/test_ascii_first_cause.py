@@ -1,7 +1,5 @@
 """One slip in the picture of an ASCII level gives one message, not one for every row below it."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.errors import LevelError

@@ -1,7 +1,5 @@
 """The legend: one character for each thing, one thing for each character, and slopes that lie where their keys lie."""
 
-from __future__ import annotations
-
 import string
 from collections import Counter
 

@@ -1,7 +1,5 @@
 """Any level to ASCII and back: the same tiles, records, order and float64 values, to the bit."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 import time

@@ -1,7 +1,5 @@
 """Texts that are made to cost much: a megabyte takes seconds of the processor and a limited memory, or is refused."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Demos, game.md §4.1 and §4.4."""
 
-from __future__ import annotations
-
 import math
 import random
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Any file of levels or recordings is recognised by its text, whatever it is called."""
 
-from __future__ import annotations
-
 import os
 import time
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """Inputs as people write them: comments, blocks, markers, other files; unclaimed replays; other tools' notations."""
 
-from __future__ import annotations
-
 import re
 import time
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Legacy demos with the reader's two defects, game.md §4.2."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

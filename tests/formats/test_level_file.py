@@ -1,7 +1,5 @@
 """Level files and replay texts, game.md §5.4-§5.6: every family of published files, rebuilt with content of our own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

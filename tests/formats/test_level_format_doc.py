@@ -1,7 +1,5 @@
 """Every example of docs/level-format.md is read: levels, parts of pictures and lists, mistakes and their messages."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """In-game level strings, game.md §5.1-§5.3."""
 
-from __future__ import annotations
-
 import math
 import random
 

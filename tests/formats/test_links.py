@@ -1,7 +1,5 @@
 """Links: what they carry comes back as it was; broken and hostile ones are refused, in bounded time and memory."""
 
-from __future__ import annotations
-
 import json
 import random
 import statistics

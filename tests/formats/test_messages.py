@@ -1,7 +1,5 @@
 """What levels say: read from their header, refused with the reason where it cannot be."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.errors import LevelError

@@ -1,7 +1,5 @@
 """Broken input: whatever is done to a text, only our own errors come out of its reader."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Callable
 

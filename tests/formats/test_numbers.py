@@ -1,7 +1,5 @@
 """Flash's number rule, game.md §5.2 and §5.3."""
 
-from __future__ import annotations
-
 import math
 import random
 import struct

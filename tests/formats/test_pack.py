@@ -1,7 +1,5 @@
 """Packs, folders and zips: index, episodes, certificates; what is wrong is named with its line."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 

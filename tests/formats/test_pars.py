@@ -1,7 +1,5 @@
 """Par times follow from a certificate by one formula; the table that holds them is read and written."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, strategies as st
 

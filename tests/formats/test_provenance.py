@@ -1,7 +1,5 @@
 """How a run was made and by whom: said by replay texts, kept by every form that can hold it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

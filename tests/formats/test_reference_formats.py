@@ -1,7 +1,5 @@
 """Everything in the reference data through the formats: read, written, read again."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import pytest

@@ -1,7 +1,5 @@
 """Our replay texts, `docs/replay-format.md`."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The notations of other tools, CelesteTAS and libTAS: what we write, and what people's files hold."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Composed levels keep to the marks, have nothing odd, and come back from their text - before any solver sees them."""
 
-from __future__ import annotations
-
 from math import dist
 from random import Random
 

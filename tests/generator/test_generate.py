@@ -1,7 +1,5 @@
 """Generated levels: the same for the same seed, certified, lintless, about as hard as they were asked to be."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from statistics import mean
 from threading import Event

@@ -1,7 +1,5 @@
 """The generated levels that come with the game: a thousand, of all difficulties, each passed by its run."""
 
-from __future__ import annotations
-
 import lzma
 from collections import Counter
 from pathlib import Path

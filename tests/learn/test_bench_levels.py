@@ -1,7 +1,5 @@
 """Levels without end: a known run passes each, none is both for learning and for the test, worlds draw them."""
 
-from __future__ import annotations
-
 import pickle
 from copy import deepcopy
 from hashlib import sha256

@@ -1,7 +1,5 @@
 """Demonstrations: recordings become what an agent would have seen, done and earned."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One environment is as many: single and vector, plain and compiled, with any number of threads, to the last byte."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Evaluation: tables that seeds decide, rows that do not depend on each other, planners that are not believed."""
 
-from __future__ import annotations
-
 from typing import Any, ClassVar
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What people do with environments: wrappers, pictures, vectors of single ones, specs; and what version 0 is."""
 
-from __future__ import annotations
-
 import hashlib
 import pickle
 import re

@@ -1,7 +1,5 @@
 """docs/learning.md: its commands are run here, its Python by pytest itself; its tables tell what there is."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from dataclasses import fields

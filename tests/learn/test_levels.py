@@ -1,7 +1,5 @@
 """Levels to learn in: every origin, the fixed split, the curriculum."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

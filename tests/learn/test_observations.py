@@ -1,7 +1,5 @@
 """Every part of an observation: in its space, the same bytes on both memories and in any company; what it says."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import cos, sin
 from typing import Any

@@ -1,7 +1,5 @@
 """Pictures by layers: what stays where it is, drawn once, under what moves, is the picture drawn whole in order."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The evaluated task: how often keys are played again, how long episodes wait; and what version 1 is."""
 
-from __future__ import annotations
-
 import hashlib
 from typing import Any
 

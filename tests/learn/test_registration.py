@@ -1,7 +1,5 @@
 """The ids of the environments, which an import registers where Gymnasium is; without it nothing changes."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -1,7 +1,5 @@
 """Rewards: terms add up; shaping follows the distance to the exit and changes no policy's rank."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

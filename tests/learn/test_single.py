@@ -1,7 +1,5 @@
 """The single environment: Gymnasium's own checks, episodes, save-states, pictures, and the errors for wrong use."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator
 from typing import Any

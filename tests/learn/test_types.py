@@ -1,7 +1,5 @@
 """What a type checker says of a user's script: unknown arguments, and those of wrong types, are found."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

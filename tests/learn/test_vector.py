@@ -1,7 +1,5 @@
 """The vector environment: Gymnasium's own vector environment is the rule for resets, masks and infos."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import gymnasium as gym

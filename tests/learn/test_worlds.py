@@ -1,7 +1,5 @@
 """The core of the environments: the same bytes on both memories, with any number of threads, alone or among many."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

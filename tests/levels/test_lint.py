@@ -1,7 +1,5 @@
 """What is legal but odd: every warning once, and none for proper levels."""
 
-from __future__ import annotations
-
 import math
 import re
 import time

@@ -1,7 +1,5 @@
 """The levels in levels/: each is proper, named, in its place, certified, and comes back from its own text."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from pathlib import Path

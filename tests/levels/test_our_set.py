@@ -1,7 +1,5 @@
 """The set of levels as a whole: what it uses, how it compares with the reference, how little levels repeat others."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter
 from functools import cache

@@ -1,7 +1,5 @@
 """A level of the game on an app without a display, played by a script."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pytest

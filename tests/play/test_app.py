@@ -1,7 +1,5 @@
 """What all screens share: settings, notices, keys that mean the same everywhere, the window."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pygame

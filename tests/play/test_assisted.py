@@ -1,7 +1,5 @@
 """Help in play: slower, invincible, running by taps, marks for sounds. What makes a run easier is no record."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

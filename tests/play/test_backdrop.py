@@ -1,7 +1,5 @@
 """The backdrop is mended piece by piece; what it shows is what it would show if it were painted again."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Iterator
 from functools import partial

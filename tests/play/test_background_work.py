@@ -1,7 +1,5 @@
 """Work in the background: whatever goes wrong in it, the screen that waits for it says so and can be used again."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path

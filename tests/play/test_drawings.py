@@ -3,8 +3,6 @@
 `python3 tools/dev.py accept-pictures` writes the file again. Numbers are logical px, colours are roles of the palette.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import replace

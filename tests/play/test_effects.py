@@ -1,7 +1,5 @@
 """What events throw up: particles that begin and end where they should."""
 
-from __future__ import annotations
-
 from random import Random
 
 import pytest

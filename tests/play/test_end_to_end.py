@@ -3,8 +3,6 @@
 Runs under Xvfb with xdotool; skipped where they are missing (`apt-get install xvfb xdotool`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The game's own letters: every one can be drawn, lies where its width says, and is kept."""
 
-from __future__ import annotations
-
 import time
 
 import pygame

@@ -1,7 +1,5 @@
 """Keys in a level: retrying, stepping, leaving; what is reported, and where."""
 
-from __future__ import annotations
-
 import sqlite3
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A level from its start to its end, played by a script on pictures 25 ms apart: one tick each."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Links in the game: what is copied opens again, with the main menu behind it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """In every mood, for every kind of sight, what matters stands out from the scenery, lit or not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Music follows the place and what happens, never restarts on a retry, and is silent where it is not wanted."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic, sleep

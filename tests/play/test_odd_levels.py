@@ -1,7 +1,5 @@
 """Levels that no one should make are drawn all the same: nothing that a level may hold stops a picture."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

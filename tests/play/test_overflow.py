@@ -1,7 +1,5 @@
 """No text or widget leaves its place, overlaps another, or is cut: every screen, all sizes of text, any window."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from itertools import product

@@ -1,7 +1,5 @@
 """Keys in a page: none that a browser keeps to itself, and each with one meaning in play."""
 
-from __future__ import annotations
-
 from ninja_game.ui.input.bindings import ACTIONS, PAGE_KEYS
 from ninja_game.ui.input.keys import scancode_named
 

@@ -1,7 +1,5 @@
 """Every palette can be read, and the safe ones show danger without colour too."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

@@ -5,8 +5,6 @@ and look at them. A picture that differs is written beside the accepted one as
 `NAME.new.png` (git ignores it).
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

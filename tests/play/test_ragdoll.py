@@ -1,7 +1,5 @@
 """The corpse: falls, lies still, stays out of walls, and comes out alike from the same chance."""
 
-from __future__ import annotations
-
 from random import Random
 
 from ninja_game.sim.collision.rays import solid_at

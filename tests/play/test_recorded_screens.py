@@ -2,8 +2,6 @@
 `tests/play/golden/`: `screens`, and `tas-screens` of the TAS editor, which a page has not.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

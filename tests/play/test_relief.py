@@ -1,7 +1,5 @@
 """Tiles look like bodies, with edges light above and dark below, and throw a shadow; not so in plain palettes."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The replay viewer: any tick is exact, time runs both ways, films are made."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace

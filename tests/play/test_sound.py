@@ -1,7 +1,5 @@
 """Every event that is heard has its file; sound follows the world and never disturbs it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path

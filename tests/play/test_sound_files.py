@@ -1,7 +1,5 @@
 """The files of sounds are what the recipes make, and keep the limits that docs/sound.md names."""
 
-from __future__ import annotations
-
 from itertools import combinations, pairwise
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Fields for text: moving, selecting, the clipboard, the mouse, keys that are held."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The drawn tiles are the tiles of the world, and nothing shines through between them."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import pygame

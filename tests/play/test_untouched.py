@@ -1,7 +1,5 @@
 """Nothing that is drawn touches the world: digests are those of bare runs with everything on."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The window of `ninja-game play`, without a display: it opens, plays, writes its picture, ends."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -3,8 +3,6 @@
 Runs under Xvfb with the window manager openbox, asked with xdotool and xprop; skipped where one of them is missing.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

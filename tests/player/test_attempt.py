@@ -1,7 +1,5 @@
 """An attempt counts the lifetime, takes the score and records as game.md §1 and §4.3 say."""
 
-from __future__ import annotations
-
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.formats.run_time import level_score
 from ninja_game.player.attempt import Attempt

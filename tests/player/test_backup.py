@@ -1,7 +1,5 @@
 """A player's data as one file: what goes out comes back, twice if need be, and nothing that is there is lost."""
 
-from __future__ import annotations
-
 import io
 import json
 import re

@@ -1,7 +1,5 @@
 """The game's episodes are made of its levels; what the player drops into a folder is there too."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A damaged file of records is set aside, a damaged row left out; what is kept then is there at the next start."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sqlite3

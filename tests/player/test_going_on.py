@@ -1,7 +1,5 @@
 """Play goes on where it was left: in the middle of an episode, with the clock and the runs that belong to it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

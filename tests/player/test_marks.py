@@ -1,7 +1,5 @@
 """Medals follow from the fastest run of a level, the mark for all gold from the richest; both stay."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Episodes, progress, bests and unlocks grow as game.md §2.1 and §8 say."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from unittest.mock import patch
 

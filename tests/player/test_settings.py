@@ -1,7 +1,5 @@
 """Settings survive their file; a wrong file never keeps the game from starting."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from unittest.mock import Mock

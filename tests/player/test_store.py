@@ -1,7 +1,5 @@
 """Whatever has happened to the files, the game starts, says so, and loses nothing that can be kept."""
 
-from __future__ import annotations
-
 import sqlite3
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What a run costs, and what is refused: by work, which no machine and no memory changes."""
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Callable

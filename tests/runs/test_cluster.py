@@ -1,7 +1,5 @@
 """The same verification on a Dask cluster of several worker processes, one of which is killed on the way."""
 
-from __future__ import annotations
-
 import os
 import signal
 from collections.abc import Iterator

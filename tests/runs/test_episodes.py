@@ -1,7 +1,5 @@
 """Episodes as one recording: the time is carried on, and all else is refused with its reason."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from pathlib import Path

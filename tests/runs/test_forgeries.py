@@ -1,7 +1,5 @@
 """What `verify --strict` must not believe: forged recordings, each with the field or the words that tell."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The counts of a level's design: each tells a good level from one that lacks just that."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level

@@ -1,7 +1,5 @@
 """Packs are judged: what is odd has a line with its place, and the table of pars is what the certificates say."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Whole runs: value equality, inputs checked at the entry, limits, an end that Ctrl-C can bring."""
 
-from __future__ import annotations
-
 import copy
 import math
 import pickle

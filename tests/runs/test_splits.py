@@ -1,7 +1,5 @@
 """Splits of runs, and the comparison of two runs place by place."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Traces: digests as the reference defines them, files that keep every bit, differences that name what differs."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import random

@@ -1,7 +1,5 @@
 """Verification at scale: the same results whoever computes them; checkpoint logs; workers that die."""
 
-from __future__ import annotations
-
 import json
 import os
 import pickle

@@ -1,7 +1,5 @@
 """Waypoints in replays: written once a second, read strictly, and where a run leaves them is named."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -1,7 +1,5 @@
 """Search under direction: formulas, what their names mean, and keys for a span of a run."""
 
-from __future__ import annotations
-
 import json
 import re
 import warnings

@@ -1,7 +1,5 @@
 """All gold of a level, in an order that leaves a way to the rest and to the exit."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """The solver: finds runs, shortens them, does the same for the same seed - and everything it says is played again."""
 
-from __future__ import annotations
-
 import gc
 from functools import cache
 from itertools import islice

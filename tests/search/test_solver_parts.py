@@ -1,7 +1,5 @@
 """The solver's parts: macros, distance fields, switch states, mutations."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """A span search in the background: live results, the end, what goes wrong."""
 
-from __future__ import annotations
-
 import inspect
 import sys
 import time

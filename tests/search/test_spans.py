@@ -1,7 +1,5 @@
 """Searches along a known run: what is like it, what is behind it, and spans of it that get shorter."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import patch

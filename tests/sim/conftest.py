@@ -1,7 +1,5 @@
 """What tests of the world share."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.support.memories import BOTH

@@ -1,7 +1,5 @@
 """The check values that the specification prints (world.md §9, ninja.md §11)."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.backend.plain import load_plain

@@ -1,7 +1,5 @@
 """The edge rule, exhaustively, against a literal reading of world.md §3; cells, lookup, missing neighbours."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

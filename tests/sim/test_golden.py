@@ -1,7 +1,5 @@
 """Our own replays and crowded levels show what they showed when the golden files were written (tests/golden)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

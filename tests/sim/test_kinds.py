@@ -1,7 +1,5 @@
 """Every kind of object has an entry in every place that needs one; what a kind does not need, its table says so."""
 
-from __future__ import annotations
-
 import ast
 import inspect
 import re

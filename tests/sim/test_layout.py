@@ -1,7 +1,5 @@
 """The compiled memory: kinds overlap without harm, worlds are packed, indices stay in range."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import pytest

@@ -1,7 +1,5 @@
 """What kills, how, and what the death tells: one sentence of docs/rules/objects.md a test."""
 
-from __future__ import annotations
-
 from math import hypot
 
 import pytest

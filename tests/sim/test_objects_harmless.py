@@ -1,7 +1,5 @@
 """What can be picked up, opened, stood on or jumped from: one sentence of docs/rules/objects.md a test."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.sim.kinds import BOUNCE_BLOCK, DOOR, EXIT, GOLD, LAUNCH_PAD, ONE_WAY

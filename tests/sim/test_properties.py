@@ -1,7 +1,5 @@
 """What must hold in any level: save-states, both memories, digests, the ninja stays inside."""
 
-from __future__ import annotations
-
 import math
 import os
 

@@ -1,7 +1,5 @@
 """The rules use only arithmetic that is the same everywhere: + - * /, sqrt, floor, abs, comparisons."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Recordings, random runs, their aftermath and the crowded levels of the reference data, on both memories."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.support import reference

@@ -1,7 +1,5 @@
 """The scenes: small levels, each made to show one rule, compared with whole traces."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.support import reference

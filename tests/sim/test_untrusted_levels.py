@@ -1,7 +1,5 @@
 """Untrusted levels: whatever a level holds, it is played or refused with a message, on both memories alike."""
 
-from __future__ import annotations
-
 import math
 import os
 from functools import cache

@@ -1,7 +1,5 @@
 """What tests of the board share: files of runs, and the pages that come of them."""
 
-from __future__ import annotations
-
 import os
 import re
 from html.parser import HTMLParser

@@ -1,7 +1,5 @@
 """Compare a run with the reference, and say where they part: tick, thing, field, both values, section."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ninja_game.formats.n14.demo import parse_demo

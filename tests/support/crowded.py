@@ -4,8 +4,6 @@ A room of random size in solid rock, some random tiles, a few kinds of objects i
 numbers are our own: the standard library's may differ from one Python to the next, and golden digests must not.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from ninja_game.sim.kinds import (

@@ -4,8 +4,6 @@ Numbers are logical px, colours are roles of the palette. ``DrawLog.called``: th
 ``DrawLog.stale``: the screens on which something had not been drawn again that had changed.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -212,6 +210,21 @@ def drawn(app: App) -> str:
         app.stack.redraw_all()
         app.draw()
     return "\n".join(lines)
+
+
+def notice_box(app: App) -> pygame.Rect:
+    """The place of the notice on the window, px, as it is drawn now: over all else."""
+    boxes: list[pygame.Rect] = []
+    window = Theme.window
+
+    def noted(theme: Theme, *where: Any, **more: Any) -> pygame.Rect:
+        boxes.append(window(theme, *where, **more))
+        return boxes[-1]
+
+    with patch.object(Theme, "window", noted):
+        app.draw()
+    assert app.notice
+    return boxes[-1]
 
 
 def noted_texts(monkeypatch: pytest.MonkeyPatch) -> dict[str, pygame.Rect]:

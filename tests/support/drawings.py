@@ -3,8 +3,6 @@
 Look at it critically after a change of any drawing: would a player buy this?
 """
 
-from __future__ import annotations
-
 import pygame
 
 from ninja_game.ui.canvas import Canvas

@@ -1,7 +1,5 @@
 """Forged recordings by what is wrong with them, each with the field or the words that tell."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import repeat
 

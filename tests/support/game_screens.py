@@ -1,7 +1,5 @@
 """A short life of a player, played by a script, that shows every screen of the game: for the recorded screens."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack

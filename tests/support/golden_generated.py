@@ -1,7 +1,5 @@
 """Digests of generated levels and of ground plans: a changed one means that seeds make other levels than before."""
 
-from __future__ import annotations
-
 from functools import cache
 from hashlib import sha256
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The golden runs: which they are, what they show now, and what the files in ``tests/golden`` say they must show."""
 
-from __future__ import annotations
-
 import csv
 import io
 import os

@@ -1,7 +1,5 @@
 """The costliest level that there is room for, and runs on it: what costs much and takes little text."""
 
-from __future__ import annotations
-
 from ninja_game.sim.kinds import BOUNCE_BLOCK, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.schema.world_fields import CAPACITY

@@ -1,7 +1,5 @@
 """What is written on a screen and where: finds texts and widgets that leave their place, overlap, or are cut."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field

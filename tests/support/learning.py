@@ -1,7 +1,5 @@
 """Environments for the tests: small levels with something of everything, random keys that stay down for a while."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray

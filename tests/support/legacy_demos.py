@@ -1,7 +1,5 @@
 """The legacy texts of demos, as N wrote them (game.md §4.2): the game only reads them."""
 
-from __future__ import annotations
-
 import re
 
 from ninja_game.errors import DemoError

@@ -1,7 +1,5 @@
 """Somebody who makes a level in the editor, with mouse, keys and pad."""
 
-from __future__ import annotations
-
 import pygame
 
 from ninja_game.editor.draft import Draft

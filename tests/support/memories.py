@@ -1,7 +1,5 @@
 """Which memories a test runs on: the compiled one only where Numba is."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.backend.memories import compiled_available

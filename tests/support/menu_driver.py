@@ -1,7 +1,5 @@
 """What the menus' tests share: the program under the dummy driver, keys pressed by script, time that is counted."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +11,7 @@ import pygame
 from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
+from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import FormPanel
@@ -215,6 +214,11 @@ class MenuDriver:
         for _ in recording.inputs:
             self.app.advance(FRAME_MS)  # without its picture, which nobody looks at
         self.frames(10)
+
+    def leave_editor(self) -> None:
+        """Close the level editor on top, which asks nothing."""
+        self.shown(EditorScreen).session.close()
+        self.app.pop()
 
     def close(self) -> None:
         """Leave everything."""

@@ -4,8 +4,6 @@ Honest: pairs of runs of the reference on one level, one by a person and one mad
 ours, in which changes are made at random places, one after the other, each kept only if the run still passes.
 """
 
-from __future__ import annotations
-
 import random
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence

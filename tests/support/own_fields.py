@@ -5,8 +5,6 @@ run as plain Python, on views of the same records; so whatever is compiled other
 more slowly. The fixture ``own_fields`` does that for a test, OWN_FIELDS=1 in the environment for all that are run.
 """
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -143,7 +141,7 @@ class ObjectViews:
     def __init__(self, address: int) -> None:
         self._address = address
 
-    def __getitem__(self, slot: int) -> ObjectView:
+    def __getitem__(self, slot: int) -> "ObjectView":
         return ObjectView(self._address + slot * OBJECT_DTYPE.itemsize)
 
 

@@ -1,7 +1,5 @@
 """The tests' own pack of levels (tests/pack), and how it takes the place of the game's."""
 
-from __future__ import annotations
-
 from contextlib import AbstractContextManager
 from pathlib import Path
 from unittest.mock import patch

@@ -1,7 +1,5 @@
 """Little levels of our own, each for a rule that random play seldom meets; they have golden digests too."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Digests of runs, for a page and for here alike: Pyodide reads this file too, so it imports only what a page has."""
 
-from __future__ import annotations
-
 import json
 import struct
 from collections.abc import Iterable

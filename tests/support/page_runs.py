@@ -1,7 +1,5 @@
 """The runs that must be the same in a page, and Node and Chromium, which play them."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Twenty scenes of the game, drawn here and in a page alike: Pyodide reads this file too, after busy.py."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from dataclasses import replace

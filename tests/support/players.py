@@ -1,7 +1,5 @@
 """What the session's tests share: small levels, and attempts at them that are played to their end."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ninja_game.formats.n14.level_string import parse_level_string

@@ -1,7 +1,5 @@
 """What a release keeps: the public API, commands and options, exit codes, versions of the formats."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Iterator
 from dataclasses import MISSING, fields, is_dataclass

@@ -1,7 +1,5 @@
 """A player at a real window under Xvfb, with keys and a mouse pressed by xdotool."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sqlite3

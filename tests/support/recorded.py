@@ -1,7 +1,5 @@
 """Lines that are recorded in golden files: `python3 tools/dev.py accept-pictures` writes them again."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from difflib import unified_diff

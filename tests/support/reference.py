@@ -4,8 +4,6 @@ It belongs to others and is never copied: a test that needs it calls ``require_r
 missing.
 """
 
-from __future__ import annotations
-
 import lzma
 from collections.abc import Callable, Iterator
 from functools import cache

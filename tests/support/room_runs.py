@@ -1,7 +1,5 @@
 """Runs in the little room of the scenes, for tests that read like the rules: until something happens, then look."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """Small levels and recordings for the tests of commands, made by the formats themselves."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

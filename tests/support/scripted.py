@@ -1,7 +1,5 @@
 """A player made of a script: controls whose keys go down and up at given pictures, and an app without a display."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager

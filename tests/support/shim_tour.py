@@ -3,8 +3,6 @@
 To be run by itself, with the shim's folder first on the path: `python -m tests.support.shim_tour FOLDER`.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 import time

@@ -1,7 +1,5 @@
 """Tests that take long and rarely fail: only `python3 tools/dev.py test --all` runs them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from itertools import count
 from typing import Any

@@ -1,7 +1,5 @@
 """Which tests need named pipes and devices: Windows has none."""
 
-from __future__ import annotations
-
 import os
 
 import pytest

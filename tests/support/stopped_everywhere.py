@@ -7,8 +7,6 @@ clock: a copy gets the signal in the middle of its start, of an import, of its w
 write files.
 """
 
-from __future__ import annotations
-
 import mmap
 import os
 import re

@@ -1,7 +1,5 @@
 """Long commands that are stopped while they work: what they leave, and how soon they end."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal

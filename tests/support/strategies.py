@@ -1,7 +1,5 @@
 """Hypothesis strategies of what the formats hold: numbers, levels, demos, replays, and broken text."""
 
-from __future__ import annotations
-
 from hypothesis import strategies as st
 
 from ninja_game.formats.n14.level_string import level_digest

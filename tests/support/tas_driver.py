@@ -1,9 +1,8 @@
 """Somebody at the TAS editor, with mouse and keys."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Self
 
 import pygame
 
@@ -30,7 +29,7 @@ class TasDriver(MenuDriver):
         self.frames(2)
 
     @classmethod
-    def over(cls, driver: MenuDriver, run: Path, beside: Sequence[Recording] = ()) -> TasDriver:
+    def over(cls, driver: MenuDriver, run: Path, beside: Sequence[Recording] = ()) -> Self:
         """The same over the screens of a program that runs already."""
         made = cls.__new__(cls)
         made.keys, made.app = driver.keys, driver.app

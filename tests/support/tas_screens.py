@@ -1,7 +1,5 @@
 """The TAS editor in every state: its tabs, what is not saved, a selection, playing, taken over; what it draws."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Someone with a browser of their own who visits the site."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager

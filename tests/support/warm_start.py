@@ -1,7 +1,5 @@
 """Programs that start in no time: forks of a process that has loaded the game, and Numba where it is installed."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The site as it is built, Chromium and Node: for tests and measurements of what runs in a page."""
 
-from __future__ import annotations
-
 import shutil
 import threading
 from collections.abc import Iterator

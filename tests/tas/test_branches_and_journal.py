@@ -1,7 +1,5 @@
 """Branches and journals: trees, JSON, and what is left of a session that was killed at any byte."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Files of runs: nothing that a person wrote is replaced, authors stay, what is saved opens again as it was."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What people want of a span: formulas that the run itself fulfils at the span's end."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

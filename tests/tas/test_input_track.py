@@ -1,7 +1,5 @@
 """Takes: what an edit changes of keys, jumps and names of ticks, and what it leaves alone."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """Timelines: after any edits every row is that of a straight run; watched values are those of a search."""
 
-from __future__ import annotations
-
 from random import Random
 
 import numpy as np

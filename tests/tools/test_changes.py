@@ -1,7 +1,5 @@
 """The programs that break the program fit it as it is."""
 
-from __future__ import annotations
-
 import ast
 import json
 from pathlib import Path

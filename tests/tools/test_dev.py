@@ -1,7 +1,5 @@
 """The door for a bare Python, and the other doors: what a command installs, and that no folder is imported from."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

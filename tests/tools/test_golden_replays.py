@@ -1,7 +1,5 @@
 """Writing the golden files again: replays that are right stay as they are."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A process killed at any moment loses nothing that it has called saved (`tools/soak/kills.py` does more of this)."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The figures of levels: what they count, and that those of the reference are its own."""
 
-from __future__ import annotations
-
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string

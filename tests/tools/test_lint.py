@@ -1,7 +1,5 @@
 """Each rule of `tools.lint` notices what breaks it, and keeps silent about what does not."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from unittest.mock import patch
 

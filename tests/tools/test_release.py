@@ -1,7 +1,5 @@
 """Releases: the next version, and archives that do not depend on when and where they are packed."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The site, a server of it and Chromium, once for all tests of pages; they skip, with a word, where there are none."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable, Iterator

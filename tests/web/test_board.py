@@ -1,7 +1,5 @@
 """The board: only inputs are believed, all else is refused or shown as what it is, and no text becomes markup."""
 
-from __future__ import annotations
-
 import os
 import re
 import time

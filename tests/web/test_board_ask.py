@@ -1,7 +1,5 @@
 """`ninja-game board ask`: what a board knows, for people and for bots."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from unittest.mock import Mock

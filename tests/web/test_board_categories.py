@@ -1,7 +1,5 @@
 """Ladders and categories: what runs are ranked by, as a text states it, and what is wrong with such a text."""
 
-from __future__ import annotations
-
 import json
 import re
 import xml.etree.ElementTree as ET

@@ -1,7 +1,5 @@
 """Whole episodes on a board: ranked for who played all of their levels, refused where they are none."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The gate of the board's template, its own shell in a real repository: only new runs come in."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import textwrap

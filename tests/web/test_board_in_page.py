@@ -1,7 +1,5 @@
 """From a row of the board into the page's own viewer, with a ghost; from the gallery into a level."""
 
-from __future__ import annotations
-
 import shutil
 from contextlib import ExitStack
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a folder of runs may not do to a board: start a command, change its dates, pass a run on as one's own."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

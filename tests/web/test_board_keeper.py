@@ -1,7 +1,5 @@
 """What the keeper of a board decides: runs that do not count, and runs on the other ladder; and the dates of runs."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

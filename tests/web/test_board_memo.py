@@ -1,7 +1,5 @@
 """What a board remembers: nothing is done twice, nothing that came with the runs is believed, no page is other."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The reference recordings as a board: all of them, each as it was, in a minute."""
 
-from __future__ import annotations
-
 import time
 from collections import Counter
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Whose folder a run is from: one in a player's name from another folder waits, until the keeper says whose it is."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

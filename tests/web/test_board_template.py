@@ -1,7 +1,5 @@
 """The template of a board from end to end, in two clones: submit, gate, check, merge, publish, contest, withdraw."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

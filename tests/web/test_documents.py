@@ -1,7 +1,5 @@
 """The documents as pages: all of them, every link between pages, rules and sources, and what becomes of a paragraph."""
 
-from __future__ import annotations
-
 import re
 from html.parser import HTMLParser
 from pathlib import Path

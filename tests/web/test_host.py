@@ -1,7 +1,5 @@
 """The page's side of the shim: keys, mouse, wheel, gamepads and focus as pygame's events, the pace, sound."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

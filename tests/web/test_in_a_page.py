@@ -1,7 +1,5 @@
 """What a page lacks (threads, Numba, NumPy, Pillow) is said where it is asked for, and nothing throws."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The figures in the text, as readers meet them: a still picture, then what the world's own functions give."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The page from start to record, as players meet it: Chromium, real keys and touches, a visit without network."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

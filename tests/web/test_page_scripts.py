@@ -1,7 +1,5 @@
 """The scripts of the page can be parsed, every name in them is known, and what they declare is used."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -3,8 +3,6 @@
 `python3 tools/dev.py accept-pictures` writes the file again.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a page paints looks as what pygame-ce paints: twenty scenes over all palettes."""
 
-from __future__ import annotations
-
 import base64
 from typing import Any
 

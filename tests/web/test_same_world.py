@@ -1,7 +1,5 @@
 """The world in a page is that of the game here, bit for bit; a sample of all runs, or all with EVERY=1."""
 
-from __future__ import annotations
-
 import os
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The module named pygame that pages have does what pygame-ce does: the same calls on both give the same."""
 
-from __future__ import annotations
-
 import importlib.util
 import json
 import os

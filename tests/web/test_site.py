@@ -1,7 +1,5 @@
 """The folder of the page: what is in it, that it is the same each time, and that nothing else is ever overwritten."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import json

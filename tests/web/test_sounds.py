@@ -1,7 +1,5 @@
 """Sounds of a page: the browser decodes our files as we do; music comes from the host when it is wanted."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Callable, Iterator
 from pathlib import Path

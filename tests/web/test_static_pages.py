@@ -1,7 +1,5 @@
 """Gallery and board in Chromium: no text runs, everything can be read without scripts, by keyboard and on a phone."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

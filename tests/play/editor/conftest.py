@@ -1,7 +1,5 @@
 """A maker at the main menu, and one with a level in the editor."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

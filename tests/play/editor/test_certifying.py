@@ -1,7 +1,5 @@
 """What certifies a level in the editor: the solver's runs, also of levels that were left, and the maker's own."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from contextlib import AbstractContextManager

@@ -1,7 +1,5 @@
 """Levels with very many objects: how they look, and what is dragged."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

@@ -1,7 +1,5 @@
 """The editor in its window: mouse, keys and pads, files and questions, tests, certificates, problems."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -29,7 +27,6 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
-from ninja_game.play.app import App
 from ninja_game.play.editor.bars import StatusLine, Toolbar
 from ninja_game.play.editor.commands import EDITOR_COMMANDS
 from ninja_game.play.editor.messages import MessagesScreen
@@ -55,9 +52,8 @@ from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import Simulation
 from ninja_game.ui.input.keys import SCANCODES
 from ninja_game.ui.text_entry import TextEntry
-from ninja_game.ui.theme import Theme
 from ninja_game.ui.widgets import Choice, Label
-from tests.support.draw_log import drawn, noted_texts
+from tests.support.draw_log import drawn, noted_texts, notice_box
 from tests.support.layout import Layout, noted
 from tests.support.level_maker import ROOM, Maker
 from tests.support.waiting import LONGEST
@@ -886,20 +882,13 @@ def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str)
     "text", ["Saved", "2 exits now: each has its own switch. Undo takes it back", "A long text " * 12]
 )
 def test_a_notice_lies_over_the_levels_lower_border_and_nothing_that_one_reads(room: Maker, text: str) -> None:
-    rects: list[pygame.Rect] = []
-    draw = App._draw_notice
-
-    def noted(app: App, theme: Theme) -> pygame.Rect:
-        rects.append(draw(app, theme))
-        return rects[-1]
-
-    with patch.object(App, "_draw_notice", noted):
-        room.app.notify(text)
-        room.frames()
+    room.app.notify(text)
+    room.frames()
+    box = notice_box(room.app)
     others = (area for name, area in LAYOUT._asdict().items() if name != "level")
-    assert rects[0].collidelist([room.app.canvas.rect(*area) for area in others]) < 0
+    assert box.collidelist([room.app.canvas.rect(*area) for area in others]) < 0
     border = room.at(0, 576)[1]
-    assert rects[0].top >= room.app.canvas.point(0, border)[1] - 1 or len(text) > 100
+    assert box.top >= room.app.canvas.point(0, border)[1] - 1 or len(text) > 100
 
 
 def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:

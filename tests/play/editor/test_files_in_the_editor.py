@@ -1,7 +1,5 @@
 """Files in the editor: saved, asked about, offered again, taken from the clipboard and the command line."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
@@ -51,8 +49,7 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     room.chord("s", pygame.KMOD_LCTRL)
     assert room.app.notice.startswith("Saved, and in the menu Levels: ")
     room.choose_in_menu("Leave the editor")
-    browser = room.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = room.opened("Levels", Browser)
     assert [entry.source for entry in browser.shown[:2]] == ["yours", "game"]
     change = next(widget for widget in browser.widgets if getattr(widget, "text", "") == "Edit")
     room.mouse(*change.centre)
@@ -427,8 +424,7 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
 ) -> None:
     monkeypatch.setitem(CHECKOUT, "levels", root / "levels")
     room.choose_in_menu("Ten good levels")
-    screen = room.top()
-    assert isinstance(screen, GoodLevelsScreen)
+    screen = room.shown(GoodLevelsScreen)
     assert len(screen.levels) == 10
     for level in screen.levels:
         assert (bool(level.about), len(level.notes)) == (True, 4)

@@ -1,7 +1,5 @@
 """A level from nothing, in a real window with a real mouse and keys: drawn, tried, certified, saved, found, passed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

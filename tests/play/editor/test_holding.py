@@ -1,7 +1,5 @@
 """Where the mouse takes hold of what lies at the edge of its cell."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

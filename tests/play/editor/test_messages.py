@@ -1,7 +1,5 @@
 """What a level says to its player, made row by row in the editor."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """What stays when another level is edited, and what ends with the level; what the buttons at the top lead to."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from threading import current_thread
@@ -73,8 +71,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
 
 def test_the_editor_begins_with_a_room_without_problems(tmp_path: Path) -> None:
     driver = MenuDriver(tmp_path)
-    editor = driver.open("Editor")
-    assert isinstance(editor, EditorScreen)
+    editor = driver.opened("Editor", EditorScreen)
     assert editor.session.draft == new_source(room=True).draft
     assert (editor.session.examine(), editor.session.is_saved) == ([], True)
     editor.session.close()

@@ -1,7 +1,5 @@
 """The level under edit larger than its part of the window: every tool works where the mouse sees it."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

@@ -1,7 +1,5 @@
 """Attract mode goes from replay to replay, rests with reduced motion, and changes nothing in the player's records."""
 
-from __future__ import annotations
-
 from ninja_game.play.main_menu import MainMenu
 from tests.support.menu_driver import MenuDriver
 

@@ -1,7 +1,5 @@
 """Keys are places, pads have names, several inputs mean one action, and no stick flutters."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pygame

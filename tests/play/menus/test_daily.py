@@ -1,7 +1,5 @@
 """The daily level: made once from the date, kept as a pack, played with par times and records; problems are shown."""
 
-from __future__ import annotations
-
 from datetime import date, timedelta
 from pathlib import Path
 from threading import Event

@@ -1,7 +1,5 @@
 """What a new player learns and is offered: texts of levels, causes of death, open levels, runs to race against."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import hypot
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every page of the help shows what it tells."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pygame

@@ -1,7 +1,5 @@
 """Every figure of the lab shows what the world's functions do: its numbers are held against a plain reading."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Nothing spills out of its panel, lies over its neighbour, or promises what is not there."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import pytest

@@ -1,7 +1,5 @@
 """Every screen is reached, used and left by the keyboard alone, by the mouse alone, by a gamepad alone."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

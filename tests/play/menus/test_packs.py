@@ -1,7 +1,5 @@
 """Packs and medals on the screens: the grid shows the pack that is chosen, cards show pars and what was reached."""
 
-from __future__ import annotations
-
 import shutil
 from dataclasses import replace
 from datetime import date
@@ -72,8 +70,7 @@ def test_a_zip_that_is_dropped_on_the_first_screen_is_received(driver: MenuDrive
 
 def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None:
     other_pack(driver.player.folder / "levels" / "other")
-    grid = driver.open("Episodes")
-    assert isinstance(grid, EpisodeGrid)
+    grid = driver.opened("Episodes", EpisodeGrid)
     assert [pack.key for pack in grid.packs] == ["", "Other"]
     driver.press("up", "right")
     assert grid.pack.key == "Other"
@@ -96,8 +93,7 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
 
 def test_pack_that_goes_while_it_is_shown_makes_room_for_ours(driver: MenuDriver) -> None:
     folder = other_pack(driver.player.folder / "levels" / "other")
-    grid = driver.open("Episodes")
-    assert isinstance(grid, EpisodeGrid)
+    grid = driver.opened("Episodes", EpisodeGrid)
     driver.press("up", "right")
     shutil.rmtree(folder)
     grid.enter()
@@ -135,8 +131,7 @@ def test_pack_without_episodes_is_refused_before_a_window_opens(tmp_path: Path) 
 def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDriver, tmp_path: Path) -> None:
     path = other_pack(tmp_path / "elsewhere")
     zipped = shutil.make_archive(str(tmp_path / "dropped"), "zip", path)
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     driver.drop_file(Path(zipped))
     driver.choose("Not now")
     assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).own_packs] == [("Other", True)]
@@ -146,8 +141,7 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
 
 
 def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     browser.sort_by("difficulty")
     hard = [entry.pars.difficulty for entry in browser.shown if entry.pars and entry.pars.difficulty is not None]
     assert len(hard) == 8
@@ -171,14 +165,12 @@ def test_a_pack_says_who_made_it_and_where_more_come_from(driver: MenuDriver) ->
 
 
 def test_levels_of_days_are_not_counted_among_those_of_the_game(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     count = f"{len(browser.entries)} of {len(browser.entries)} levels"
     assert count in drawn(driver.app)
     driver.press("escape")
     shutil.copytree(PACK, daily_file(driver.player.folder / LEVELS, date(2026, 11, 27)).parent)
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     assert f"{len(browser.entries)} levels" not in drawn(driver.app)
     assert count in drawn(driver.app)
 
@@ -229,16 +221,14 @@ def test_all_problems_of_files_are_shown_whole(driver: MenuDriver) -> None:
 
 
 def test_what_is_typed_is_searched_for_without_a_click_on_the_field(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     driver.press("down")
     driver.type("gap")
     assert [entry.title for entry in browser.shown] == ["Mind the Gap"]
 
 
 def test_nothing_can_be_done_with_no_level(driver: MenuDriver) -> None:
-    browser = driver.open("Levels")
-    assert isinstance(browser, Browser)
+    browser = driver.opened("Levels", Browser)
     live = [browser.play_button, browser.practice, browser.change, browser.link]
     assert all(button.enabled for button in live)
     driver.type("zzz")

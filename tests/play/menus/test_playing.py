@@ -1,7 +1,5 @@
 """From the menu to a record: episodes and single levels are played by script, saved, and come back as ghosts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ninja_game.files.bundled import bundled_replays

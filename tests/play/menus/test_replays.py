@@ -1,7 +1,5 @@
 """The list of replays: opens at once whatever there is, is searched, and says what each run is."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from time import process_time

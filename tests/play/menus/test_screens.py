@@ -1,7 +1,5 @@
 """Every screen can be reached, used and left by keys, mouse and gamepad; the focus is always somewhere."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pygame

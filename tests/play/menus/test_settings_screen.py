@@ -1,7 +1,5 @@
 """The settings: pages are chosen by moving, Esc goes back one step, and no input gets two meanings unasked."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

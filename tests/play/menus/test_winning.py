@@ -1,7 +1,5 @@
 """What a pass and a death look like: a freeze, a stamped medal, the failed tries, a wipe; all of it can be off."""
 
-from __future__ import annotations
-
 from unittest.mock import patch
 
 import pygame

@@ -1,7 +1,5 @@
 """The TAS editor in windows of any size: more rows and a larger level, borders that are dragged, text of any size."""
 
-from __future__ import annotations
-
 from itertools import combinations
 from pathlib import Path
 from shutil import copy

@@ -1,7 +1,5 @@
 """The tab of branches: kept, chosen, gone to, renamed, dropped."""
 
-from __future__ import annotations
-
 from unittest.mock import patch
 
 import pygame

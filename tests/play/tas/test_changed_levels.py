@@ -1,7 +1,5 @@
 """A run whose level was changed after the recording is mended on the TAS editor; its file stays as it is."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pygame

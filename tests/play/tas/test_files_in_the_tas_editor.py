@@ -1,7 +1,5 @@
 """Files on the TAS editor: saved, asked about, kept, offered again after a kill; Edit in the replay viewer."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
@@ -24,6 +22,7 @@ from ninja_game.tas_editor.opening import open_tas_editor
 from ninja_game.tas_editor.screen import TasScreen
 from ninja_game.ui.theme import Theme
 from tests.play.tas.conftest import RUN
+from tests.support.draw_log import notice_box
 from tests.support.own_pack import PACK
 from tests.support.samples import SPIKED, WALK, running, write_records
 from tests.support.scripted import scripted_app, tap
@@ -62,7 +61,7 @@ def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
     change(at)
     at.chord("s", CTRL)
     assert at.app.notice == f"Saved: {path} and its branches beside it"
-    assert at.app._draw_notice(at.screen.theme).right <= at.screen.theme.canvas.rect(*at.screen.roll.area).left
+    assert notice_box(at.app).right <= at.screen.theme.canvas.rect(*at.screen.roll.area).left
     assert at.session.is_saved
     assert load_replays(path)[0].replay.playback(30) == at.editor.track.inputs[:30]
     assert journals(at) == []
@@ -339,8 +338,7 @@ def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
 
 def test_a_film_is_made_from_the_menu(at: TasDriver) -> None:
     at.choose_in_menu("Film")
-    viewer = at.top()
-    assert isinstance(viewer, ReplayScreen)
+    viewer = at.shown(ReplayScreen)
     assert viewer.export is not None
     viewer.export.cancel()
 
@@ -359,4 +357,4 @@ def test_a_notice_lies_over_the_floor_of_the_level(at: TasDriver) -> None:
     level = at.screen.theme.canvas.rect(*at.screen.level.area)
     for text in ("one line", "many words " * 15):
         at.app.notify(text)
-        assert level.inflate(2, 2).contains(at.app._draw_notice(at.screen.theme)), text
+        assert level.inflate(2, 2).contains(notice_box(at.app)), text

@@ -1,7 +1,5 @@
 """The tab of the lead over another run."""
 
-from __future__ import annotations
-
 from unittest.mock import patch
 
 import pytest

@@ -1,7 +1,5 @@
 """The level on the TAS editor: any tick exact, ways and ghosts, playing, other runs."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Until the rules are loaded the window says what is being done; then it is the TAS editor."""
 
-from __future__ import annotations
-
 import gc
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The keys of another run beside those of the one on the TAS editor."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pygame

@@ -1,7 +1,5 @@
 """A gamepad at the TAS editor, by the events that SDL makes of it: taking over, playing, stepping."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

@@ -1,7 +1,5 @@
 """The piano roll by keys: moving, changing ticks, markers, the clipboard."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

@@ -1,7 +1,5 @@
 """The piano roll under the mouse: painting, selecting, scrolling, columns."""
 
-from __future__ import annotations
-
 import pygame
 import pytest
 

@@ -1,7 +1,5 @@
 """The rows of the roll: what they say, runs of no tick and of very many, how they are drawn."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The player's keys play the run on: recorded as pressed, one edit, tick by tick, paused, ended."""
 
-from __future__ import annotations
-
 from random import Random
 from time import thread_time
 

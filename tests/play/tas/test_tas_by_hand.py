@@ -1,7 +1,5 @@
 """A person's speedrun made shorter in a real window, with real keys and a real mouse, saved and verified."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The run as text: in step with the roll, edited on either side, in two notations; markers stay."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import pygame

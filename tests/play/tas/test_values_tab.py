@@ -1,7 +1,5 @@
 """The tab of watched values: formulas, their values at the cursor, their plots."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from time import thread_time
 

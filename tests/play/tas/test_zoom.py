@@ -1,7 +1,5 @@
 """The level larger than its part of the window: drawn at that size, moved, and it goes along with the ninja."""
 
-from __future__ import annotations
-
 import numpy as np
 import pygame
 import pytest
