@@ -182,7 +182,7 @@ SIGN_AWAY = 14.0  # from its cause, across and up, px
 
 
 class GridLine(NamedTuple):
-    """A vertical or level line at so many px of the level; one in the middle is in every grid."""
+    """A vertical or horizontal line at a distance from the left or upper edge, px; a middle line is in every grid."""
 
     upright: bool
     at: float
