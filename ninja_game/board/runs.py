@@ -43,7 +43,7 @@ REJECTED_KINDS = {
 }
 """Reasons why a run does not count: in a line of a report, and on a page, of several and of one."""
 
-NAMELESS = "unknown ("  # how the name of a player begins whom no run names; the file follows
+UNKNOWN_PLAYER = "unknown ("  # how the name of a player begins whom no run names; the file follows
 OWN = "own"  # a level of an episode that its player has sent before
 
 
