@@ -43,6 +43,7 @@ PHRASES = {
     r"\bsaid (again|no more)\b": "shown again",
     r"\b(at|every|for|least|most|of) so many\b": "this many, after ``count`` ticks",
     r"\bto and fro\b": "back and forth",
+    r"\b(is|are|was|were|be|been) (given up|put away)\b": "dropped, removed, cancelled",
     r"\b(comes?|came) about\b": "is made, is computed",
     r"\bby turns\b": "in turn",
     r"\b(is|are) passed by\b": "skipped, ignored",

@@ -61,12 +61,8 @@ def kernel_name(entry: Callable[..., Any], checked: bool) -> str:
 
 def are_cached(entries: Iterable[Callable[..., Any]], checked: bool) -> bool:
     """Whether all these kernels have machine code in the cache."""
-    cached = {
-        path.stem.rpartition("-")[0]
-        for folder in (SHIPPED, code_folder())
-        for path in folder.glob("*.code")
-        if path.is_file()
-    }
+    files = (path for folder in (SHIPPED, code_folder()) for path in folder.glob("*.code"))
+    cached = {path.stem.rpartition("-")[0] for path in files if path.is_file()}
     return cached >= {kernel_name(entry, checked) for entry in entries}
 
 

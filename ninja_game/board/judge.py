@@ -18,6 +18,7 @@ from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.board.players import UNNAMED, Players, folded
 from ninja_game.board.runs import (
     ASSISTED,
+    NAMELESS,
     NO_LEDGER,
     OWN,
     PLAYED,
@@ -318,7 +319,7 @@ def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
     if folded(result.author) == UNNAMED or (not sent.replay and not result.made):
         # A record of N names the level's author, not the player; a replay of ours also says how it was made.
         place = result.file + (f", record {result.record}" if result.record > 0 and not result.episode else "")
-        result = replace(result, author=f"unknown ({place[-MAX_NAME // 2 :]})")
+        result = replace(result, author=f"{NAMELESS}{place[-MAX_NAME // 2 :]})")
     no_keyboard = not_strict(result, "possible_by_keyboard")
     mark = _impossible(result, sent) if no_keyboard in result.problems else ""
     body = not_strict(result, "body")  # all else that is wrong follows from it

@@ -15,6 +15,7 @@ from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import (
     ASSISTED,
     DECISIONS,
+    NAMELESS,
     NO_LEDGER,
     OWN,
     PLAYED,
@@ -297,7 +298,7 @@ def plain(text: str) -> str:
 
 def unnamed(judged: ValidatedRuns) -> str:
     """Advice on naming the players of nameless runs, such as demos of N; "" where all runs have a name."""
-    nameless = sum(run.player.startswith("unknown (") for run in judged.runs)
+    nameless = sum(run.player.startswith(NAMELESS) for run in judged.runs)
     how = "name their players with: ninja-game convert FILE OUT --to replay --author NAME"
     return f"{counted(nameless, 'run')} by unknown players; {how}" if nameless else ""
 

@@ -43,6 +43,7 @@ REJECTED_KINDS = {
 }
 """Reasons why a run does not count: in a line of a report, and on a page, of several and of one."""
 
+NAMELESS = "unknown ("  # begins the name of a player that no run names; the file follows
 OWN = "own"  # kind of a level of an episode whose run the same player has sent before
 
 

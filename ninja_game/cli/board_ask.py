@@ -97,7 +97,7 @@ def _answer(
     what: str, ranks: Sequence[Ranked], category: Category, output: Path | None, *, as_data: bool, keep: Sequence[Path]
 ) -> None:
     from ninja_game.formats.recording import Recording
-    from ninja_game.runs.compare import run_splits
+    from ninja_game.runs.splits import run_splits
 
     rows: Any = [_row(ranked, category) for ranked in ranks]
     form = RANKED

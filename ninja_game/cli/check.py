@@ -56,7 +56,7 @@ class GoldGoals(options.GoldCount):
 @options.levels_jobs_option
 @options.body_option
 @click.option(
-    "--replays", metavar="FOLDER", type=NEW_FOLDER, help="Keep runs in this folder; those still right are not searched."
+    "--replays", metavar="FOLDER", type=NEW_FOLDER, help="Keep runs in this folder; valid ones are not searched again."
 )
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")

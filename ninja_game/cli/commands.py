@@ -49,7 +49,7 @@ GROUPS = {
             in_place=True,
         ),
         "generate": Command("levels", "Make a new level, certified by the solver.", compiles=True),
-        "convert": Command("convert", "Turn levels and recordings from one format into the other."),
+        "convert": Command("convert", "Turn levels and recordings from one format into another."),
     },
     "runs": {
         "tas": Command("windows", "Edit a run tick by tick, in a window.", compiles=True, in_place=True),

@@ -58,7 +58,7 @@ def convert(
     budget: int,
     force: bool,
 ) -> None:
-    """Turn levels and recordings from one format into the other.
+    """Turn levels and recordings from one format into another.
 
     IN is a file, folder or link in any format; OUT a file, a folder, or - for the terminal. What is written:
 

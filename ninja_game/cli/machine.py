@@ -101,12 +101,12 @@ _EVERY = 0.5  # seconds between two looks whether another process is done
 
 
 @click.command(name="compile")
-@click.option("--background", is_flag=True, help="At low priority; nothing where another process is at it.")
+@click.option("--background", is_flag=True, help="At low priority; does nothing if another process compiles already.")
 def compile(background: bool) -> None:  # noqa: A001 - the name of the command
     """Compile the rules for this machine now, so that no other command waits for it.
 
-    What is there already is not compiled again. Commands and the game start the same by themselves, in the background;
-    with NINJA_GAME_BACKGROUND_COMPILER=0 in the environment they do not, and wait where they need it.
+    Compiled rules are kept, and not compiled again. Other commands and the game start this in the background; with
+    NINJA_GAME_BACKGROUND_COMPILER=0 in the environment they compile what they need themselves, and wait for it.
 
     \b
     Examples:

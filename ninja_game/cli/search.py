@@ -104,8 +104,8 @@ def improve(
 ) -> int:
     """Shorten a run that exists.
 
-    REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. One that ends before the exit is first
-    led there, in half of the time: by the switch and what else the way needs. With --against the routes of other runs
+    REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. If it ends before the exit, half of the
+    time goes to finding a way there, with the switch and doors that it needs. With --against the routes of other runs
     of the level are shortened beside its own, and their players become co-authors. The best run so far is always in
     the output file; every run is played again from the start by the plain memory before it is written. It needs Numba
     (the extra `fast`).
@@ -219,17 +219,8 @@ def search(
     )
     named = partial(improved_replay, recording=recording, command="search")
     save = saver(output, [Path(recording.file)], named) if output else None
-    task = SpanTask(
-        recording.level,
-        recording.inputs,
-        first,
-        last,
-        goal=goal,
-        measure=maximise or minimise,
-        least=bool(minimise),
-        rest=rest,
-        body=recording.body,
-    )
+    level, inputs, measure = recording.level, recording.inputs, maximise or minimise
+    task = SpanTask(level, inputs, first, last, goal, measure, least=bool(minimise), rest=rest, body=recording.body)
     with progress_line() as shown:
         report = _SpanReport(task, seconds, save, shown.say)
         found = search_span(

@@ -18,7 +18,8 @@ from ninja_game.cli.terminal import data_output
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
-    from ninja_game.runs.compare import Comparison, Lead, RunSplits
+    from ninja_game.runs.compare import Comparison, Lead
+    from ninja_game.runs.splits import RunSplits
 
 SPLIT_COLUMNS = (
     "level_digest", "file", "record", "name", "event", "object", "number", "x", "y", "tick", "behind", "best_segment",
@@ -58,7 +59,7 @@ def splits(
     """Show when runs take gold, open doors and the exit, and end.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each level has a
-    table: a row a split, the tick of the best run, and how many ticks later (+) or earlier (-) each other run is
+    table: a row per split, the tick of the best run, and how many ticks later (+) or earlier (-) each other run is
     there. The column "segment" has the fewest ticks from the row above that any of the runs needs; their sum is the
     "sum of best". Ticks count from 0; 40 are a second.
 
@@ -70,8 +71,8 @@ def splits(
       ninja-game splits my-runs/ --against best.replay.txt --no-gold
       ninja-game splits demos.txt --format csv > splits.csv
     """
-    from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
     from ninja_game.runs.recording_reader import recordings_in
+    from ninja_game.runs.splits import SPLIT_EVENTS, run_splits
 
     level = options.load_level_option(level_path)
     events = [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]

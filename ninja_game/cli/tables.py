@@ -17,7 +17,7 @@ from ninja_game.formats.run_time import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
-    from ninja_game.runs.compare import RunSplits, SplitRow
+    from ninja_game.runs.splits import RunSplits, SplitRow
     from ninja_game.sim.level import Level
 
 _WIDTH = 160  # width of a table in a pipe, characters
@@ -27,7 +27,7 @@ Table = tuple["list[RunSplits]", "list[SplitRow]"]  # the runs of a level, the b
 
 def table_of(group: Sequence[RunSplits], against: Sequence[RunSplits]) -> Table:
     """The table of runs of a level, against the given one of it or else the fastest."""
-    from ninja_game.runs.compare import best_run, split_table
+    from ninja_game.runs.splits import best_run, split_table
 
     best = next((run for run in against if run.level_digest == group[0].level_digest), None) or best_run(group)
     runs = [best, *(run for run in group if run is not best)]
@@ -49,8 +49,8 @@ def show(tables: Sequence[Table]) -> None:
     from rich.console import Console
     from rich.table import Table as RichTable
 
-    from ninja_game.runs.compare import sum_of_best
     from ninja_game.runs.deaths import ending_text
+    from ninja_game.runs.splits import sum_of_best
 
     console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else _WIDTH)
     for runs, rows in tables:
@@ -84,7 +84,7 @@ def _behind(tick: int | None, best: int | None) -> str:
 
 
 def as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
-    from ninja_game.runs.compare import sum_of_best
+    from ninja_game.runs.splits import sum_of_best
 
     return {
         "level_digest": runs[0].level_digest,

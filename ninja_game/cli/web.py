@@ -27,7 +27,7 @@ def _address(_ctx: click.Context, _param: click.Parameter, value: str) -> str:
 
 address_option = click.option(
     "--address", metavar="URL", default="", callback=_address,
-    help="Where the folder will be: chats that show a preview of a link want whole addresses of pictures.",
+    help="Where the folder will be published: previews of its links in chats need whole addresses.",
 )  # fmt: skip
 
 
@@ -155,10 +155,10 @@ def board(
     """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
-    other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
-    so are kept out, with the reason. What was simulated is remembered in your own cache folder, by all that it depends
-    on, and not simulated again. `ninja-game site OUT` puts the page with the game next to the board, which shows each
-    run. How to keep a board in a repository: docs/board.md. A folder that is named ask is given as ./ask.
+    other levels, with another body, under other rules, practice runs, copies and runs with false claims are rejected,
+    with the reason. Results are kept in your own cache folder, so that no run is simulated twice. `ninja-game site OUT`
+    puts the page with the game next to the board, to watch its runs. How to keep a board in a repository:
+    docs/board.md. A folder with the name "ask" is given as ./ask.
 
     \b
     Examples:

@@ -33,7 +33,7 @@ def play(
     """Play a level in a window.
 
     LEVEL is a file of levels, the name of one of the game's own, or a link; without it the game begins at its menu.
-    Links hold everything that they need: no network is asked. A pack, a folder or zip with pack.toml, offers its
+    Links hold everything that they need: no network is used. A pack, a folder or zip with pack.toml, offers its
     episodes; with --practice, --body or --record its levels are played one after the other. The menus offer your own
     files and packs too: those in the folder `levels` of your folder for this game, which NINJA_GAME_HOME moves; a file
     that is dropped on the menu Levels is copied there.
@@ -79,8 +79,8 @@ def play(
 def edit(level: Path | None, record: int | None, **window: Any) -> int:
     """Make a level, or change one, in a window.
 
-    LEVEL is a file of levels, or the name of one of the game's own; without it a room. A readable level is
-    saved into its file, with its comments; a level of N or of the game becomes a new file among yours.
+    LEVEL is a file of levels, or the name of one of the game's own; without it an empty room. A readable level
+    is saved into its file, with its comments; a level of N or of the game becomes a new file among yours.
 
     \b
     Examples:
@@ -116,9 +116,9 @@ def tas(
     """Edit a run tick by tick, in a window.
 
     FILE is a recording of any format, or a level, for a new run of it. On one side the level, on the other a row for
-    each tick: its keys, and what the world says after it. Change keys, take over and play on, search for something
+    each tick: its keys, and values of the world after it. Change keys, take over and play on, search for something
     better, keep branches. A replay text of ours is saved into its file; any other recording becomes a new one. Where
-    the level was changed after the recording, the run opens on the level as it is now, to be mended.
+    the level was changed after the recording, the run opens on the present level, to be mended.
 
     \b
     Examples:

@@ -270,6 +270,8 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
 
 
 class _Lines:
+    """The lines of a level file, changed from one draft to another; comments, order and unchanged lines stay."""
+
     def __init__(self, text: str, opened: Draft, draft: Draft) -> None:
         self.lines = text.split("\n")
         self.opened, self.draft = opened, draft

@@ -26,17 +26,17 @@ Say = Callable[[str, float | None], object]
 Obstacles = dict[tuple[Level, str], Finding]
 """By level and kind of certificate ("exit", "gold"): why the solver found no such run."""
 
-_MISSING = {"no-certificate": "exit", "no-gold-run": "gold"}
+_RUN_OF_CODE = {"no-certificate": "exit", "no-gold-run": "gold"}
 """Codes of findings about missing runs, with the kind of run."""
 
-_CAUSES: dict[str, Sequence[str]] = dict.fromkeys(_MISSING, ("no-ninja", "no-exit"))
+_CAUSES: dict[str, Sequence[str]] = dict.fromkeys(_RUN_OF_CODE, ("no-ninja", "no-exit"))
 _CAUSES |= {"no-exit": ("no-ninja",), "same-content": ("no-ninja",), "same-name": ("same-content",)}
 """Codes of findings about a level, with the codes of their causes."""
 
 _SOUGHT = {"exit": "run to the exit", "gold": "run with all gold"}
 _GOALS = {"exit": "exit", "gold": "all gold"}
 
-MADE_READY = (*_MISSING, "certificate", "no-pars", "old-pars")
+MADE_READY = (*_RUN_OF_CODE, "certificate", "no-pars", "old-pars")
 """Codes of findings that ``prepare_pack`` removes, unless its search fails."""
 
 
@@ -65,7 +65,7 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
     obstacles = {} if obstacles is None else obstacles
     notes = list[str]()
     if compiled_available():
-        _certify(Pack(path), path, seconds, jobs, say, obstacles)
+        _certify(path, obstacles, say=say, seconds=seconds, jobs=jobs)
     else:
         notes.append(f"Certifying needs Numba: {install_hint('fast')}")
     pack, pars = Pack(path), {}
@@ -117,24 +117,25 @@ def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
 
 def missing_run(pack: Pack, finding: PackFinding) -> tuple[Level, str] | None:
     """The level and the kind of the run of which a finding says that it is missing, as ``Obstacles`` have them."""
-    file, kind = _missing(pack, finding.file, finding.code)
+    file, kind = _missing_run(pack, finding.file, finding.code)
     return (pack.levels[file].level, kind) if kind and file in pack.levels else None
 
 
-def _missing(pack: Pack, file: str, code: str) -> tuple[str, str]:
+def _missing_run(pack: Pack, file: str, code: str) -> tuple[str, str]:
     """The level file and the kind of the run that a finding about a file misses; no kind for other findings."""
     level = level_file_of(pack, file)
     broken = [kind for kind in RUN_KINDS if code == "certificate" and certificate_name(level, kind) == file]
-    return level, next(iter(broken), _MISSING.get(code, ""))
+    return level, next(iter(broken), _RUN_OF_CODE.get(code, ""))
 
 
-def _certify(pack: Pack, path: Path, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> None:
+def _certify(path: Path, obstacles: Obstacles, *, say: Say, seconds: float, jobs: int) -> None:
     """Certify the levels with missing runs that are not accepted as missing."""
     from ninja_game.search.certify import CertifyOptions, certify_all
     from ninja_game.search.solve import compile_solver, is_solver_compiled
     from ninja_game.search.task import Progress, obstacle
 
-    accepted = {_missing(pack, entry.file, entry.code) for entry in pack.index.accepted}
+    pack = Pack(path)
+    accepted = {_missing_run(pack, entry.file, entry.code) for entry in pack.index.accepted}
 
     def is_open(file: str, kind: str) -> bool:
         level, says = pack.levels[file].level, pack.levels[file].says

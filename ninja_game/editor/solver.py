@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.playtests import PathPoints, route_of, run_of
 from ninja_game.errors import reason
+from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.problems import passed_by
@@ -46,6 +47,7 @@ class Certification:
     gold_run: Replay | None = None  #: the best run with all gold
     then: Callable[[Certification], object] | None = None  #: called at the end, in the solver's thread
     failed: bool = False  #: whether an error ended it
+    grade: str = ""  #: the measured difficulty of the best run in a word, "" before the search is over
     known: tuple[bytes, ...] = ()  #: inputs of runs of the level as it was before, tried first
     stopping: Event = field(default_factory=Event)  #: set to end it
     lock: AbstractContextManager[object] = field(default_factory=Lock)  #: around changes by either thread
@@ -71,6 +73,15 @@ class Certification:
             if not self.end:
                 self.end, self.failed = text, failed
                 self.obstacles = self.obstacles if self.run else obstacles
+
+    @property
+    def gold_text(self) -> str:
+        """How much gold the best run takes, or the time of the best run with all; "" in a level without gold."""
+        if not (self.run and self.level and self.level.gold):
+            return ""
+        if self.gold_run and self.gold_run.end_tick > self.run.end_tick:
+            return f"all gold {seconds_text(self.gold_run.end_tick)} s"
+        return "all gold" if self.gold_run else f"{self.run.gold} of {self.level.gold} gold"
 
     @property
     def share(self) -> float:
@@ -105,6 +116,7 @@ class Solver:
             return
         self.at_work = certification
         try:
+            from ninja_game.batch.difficulty import difficulty
             from ninja_game.search.solve import is_solver_compiled, solve
             from ninja_game.search.task import Task, obstacle
 
@@ -113,6 +125,9 @@ class Solver:
             result = solve(task, report=certification.report, on_better=certification.take, stop=certification.stopping)
             vain = certification.progress if not (result or certification.run or certification.end) else None
             obstacles = (obstacle(certification.level, 0, vain),) if vain else ()
+            if run := certification.run:
+                points = difficulty(certification.level, run.inputs)
+                certification.grade = Pars("", "", run.end_tick, difficulty=points).grade
         except BaseException as error:
             certification.finish(reason(error), failed=True)
             raise
@@ -133,9 +148,8 @@ class Certifier:
         """The state of the search in a line, "" before the first start; while kernels are compiled, for how long."""
         certification = self.certification
         if certification.run is not None and not certification.failed:
-            gold = f", {certification.run.gold} gold" if certification.run.gold else ""
-            shortening = ", shortening" if self.is_busy else ""
-            return f"Certified: {seconds_text(certification.run.end_tick)} s{gold}{shortening}"
+            more = [certification.gold_text, certification.grade, "shortening" * self.is_busy]
+            return ", ".join(filter(None, (f"Certified: {seconds_text(certification.run.end_tick)} s", *more)))
         if certification.stopping.is_set() and certification.progress:
             return f"Stopped: no exit found in {certification.progress.seconds:.0f} s"
         if certification.end or certification.level is None:

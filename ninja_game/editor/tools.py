@@ -23,7 +23,7 @@ from ninja_game.sim.rules import CELL, WORLD_HEIGHT, WORLD_WIDTH
 
 TOOLS = ("brush", *SHAPES, "fill", "select", "pick")
 TAKES = ("both", "tiles", "objects")  # the choices of Select
-BEND = 12.0  # px per step of bending a line
+BEND_STEP = 12.0  # px that a line is bent by at each step
 DRAGGED = PICK_REACH = 12.0  # a press that moves farther than this is a drag; a nearer object is picked, px
 REACH = 17.32  # px within which an object is deleted (√300: game.md §6), or selected by a click
 
@@ -189,7 +189,7 @@ class EditorTools:
         self.history.end()
 
     def finish(self) -> None:
-        """End the operation under way; a door or exit without its switch is given up."""
+        """End the operation under way; a door or exit without its switch is removed."""
         if spec := self._switchless:
             self.history.abandon()
             self._end()
@@ -279,7 +279,7 @@ class EditorTools:
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether it is busy."""
         if self._gesture == Gesture.LINE:
-            self._bend += BEND * steps
+            self._bend += BEND_STEP * steps
             self._draw_shape()
         return self.is_busy
 

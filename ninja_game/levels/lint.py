@@ -79,10 +79,7 @@ class Ground:
         return bool(tiles.SHAPE[self.tiles.ids[cell]] == tiles.FULL)
 
     def can_touch(self, x: float, y: float, radius: float) -> bool:
-        """Whether a ninja in a reached cell could touch a disc (radius up to 14 px, or as of ``_around``).
-
-        True if uncertain.
-        """
+        """Whether a ninja in a reached cell could touch a disc (up to 14 px, or of ``_TOUCHED``); True if uncertain."""
         near = (cell for cell in _cells_around(cell_at(x, y)) if cell in self.cells)
         return not self.is_certain or any(_touches(cell, x, y, radius) for cell in near)
 

@@ -330,14 +330,9 @@ class Panel(MenuScreen):
 
     def build(self) -> Sequence[Widget]:
         (x, y, w, _), height, side = self._box, self.row_height, self.side
+        width, high = w - 2 * side, 0.8 * height
         return [
-            Button(
-                (x + side, y + self.head + height * k, w - 2 * side, 0.8 * height),
-                text,
-                action,
-                hint=hint,
-                size=self.size,
-            )
+            Button((x + side, y + self.head + height * k, width, high), text, action, hint=hint, size=self.size)
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 

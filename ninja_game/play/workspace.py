@@ -80,13 +80,14 @@ class CommandTable:
 
 
 class CommandMenu(Menu):
-    """A menu of a document; the keys of the commands ``names`` work in it too."""
+    """A menu of a document. The keys of the commands ``names`` work in it too: it closes, and ``run`` does them."""
 
     def __init__(
         self,
         app: App,
         title: str,
         rows: Sequence[MenuRow],
+        *,
         table: CommandTable,
         names: Collection[str],
         run: Callable[[str], object],
@@ -246,7 +247,10 @@ class WorkspaceScreen(MenuScreen):
         self._widgets_changed = True
 
     def await_text(self) -> None:
-        """Only while a field has the focus: else a command's letter would be typed into what the command opens."""
+        """Switch text input on only while a text field has the focus.
+
+        Else the letter of a key that opens a field would also be typed into that field.
+        """
         if self.app.top is self:
             typing = isinstance(self.focus, TextEntry)
             (pygame.key.start_text_input if typing else pygame.key.stop_text_input)()

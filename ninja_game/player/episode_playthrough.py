@@ -129,12 +129,8 @@ class EpisodePlaythrough(Playthrough):
     def _leave_out(self) -> None:
         """Unlock the level after the present one; nothing of the episode counts as a best any more."""
         self.whole = False
-        position, legitimate = self.position, self.legitimate
-
-        def work() -> list[str]:
-            note_progress(self.data, self.episode, position, legitimate=legitimate)
-            return []
-
+        # No attempt is counted here, and no replay is kept.
+        work = partial(self._save, list, self.position, self.score, (), legitimate=self.legitimate, whole=False)
         self.notices = save_work(self.data, work)
 
 

@@ -235,11 +235,8 @@ class Statistics:
                 (level, int(passed), int(killer is not None), ticks, gold),
             )
             if killer is not None:
-                db.execute(
-                    "INSERT INTO death (killer, times) VALUES (?, 1)"
-                    " ON CONFLICT (killer) DO UPDATE SET times = times + 1",
-                    (killer,),
-                )
+                death = "INSERT INTO death (killer, times) VALUES (?, 1)"
+                db.execute(f"{death} ON CONFLICT (killer) DO UPDATE SET times = times + 1", (killer,))
 
     def deaths(self) -> dict[str, int]:
         """Deaths by killer, every killer present, in the order of KILLERS."""

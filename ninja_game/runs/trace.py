@@ -84,18 +84,12 @@ def trace_recording(
 
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError beyond ``budget``.
     """
+    level, body = recording.level, recording.body
     with named_errors(recording):
         inputs = recording.replay.playback(min(recording.ticks + after, MAX_TICKS) if ticks is None else ticks)
         more = after if ticks is None else None
         return trace_level(
-            recording.level,
-            inputs,
-            body=recording.body,
-            memory=memory,
-            with_objects=objects,
-            events=events,
-            after=more,
-            budget=budget,
+            level, inputs, body=body, memory=memory, with_objects=objects, events=events, after=more, budget=budget
         )
 
 

@@ -81,14 +81,9 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
     except csv.Error:
         header = ("no table",)
     if header != TRACE_COLUMNS:
-        raise FormatError(
-            "this is not a trace",
-            file=file,
-            line=1,
-            found=repr(",".join(header)[:80]),
-            expected=f"the header {','.join(TRACE_COLUMNS)}",
-            hint="`ninja-game trace -o` writes it",
-        )
+        found, expected = repr(",".join(header)[:80]), f"the header {','.join(TRACE_COLUMNS)}"
+        hint = "`ninja-game trace -o` writes it"
+        raise FormatError("this is not a trace", file=file, line=1, found=found, expected=expected, hint=hint)
     try:
         for (source, record), group in groupby(table, key=lambda row: (row["file"], int(row["record"]))):
             yield _read_run(group, record, source)

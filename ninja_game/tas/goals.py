@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.compare import Split, run_splits
+from ninja_game.runs.splits import Split, run_splits
 from ninja_game.search.formula.task import MAX_SPAN
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.rules import TICKS_PER_SECOND

@@ -94,7 +94,7 @@ class RunCommands(DocumentCommands):
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
             ("Help", self.help, key["help"]), ("Leave", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(CommandMenu(self.app, "Run", rows, TAS_COMMANDS, _IN_MENU, self._run))
+        self.app.push(CommandMenu(self.app, "Run", rows, table=TAS_COMMANDS, names=_IN_MENU, run=self._run))
 
     def splice(self) -> None:
         rows: list[MenuRow] = [

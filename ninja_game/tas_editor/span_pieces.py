@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.formats.recording import Recording
-from ninja_game.runs.compare import Split, run_splits
+from ninja_game.runs.splits import Split, run_splits
 from ninja_game.runtime import NewestJob
 from ninja_game.search.formula.task import SpanTask
 from ninja_game.tas.goals import GOALS, RunPiece, SearchedSpan, SpanGoal, span_pieces

@@ -19,8 +19,8 @@ from ninja_game.formats.replay.text import Replay, parse_replay, write_episode
 from ninja_game.play.replay import film
 from ninja_game.play.replay.film import Film, section_of
 from ninja_game.play.replay.playback import Playback, names_of
-from ninja_game.runs.compare import RunSplits, run_splits
 from ninja_game.runs.run import record_replay
+from ninja_game.runs.splits import RunSplits, run_splits
 from ninja_game.sim.inputs import Demo
 from ninja_game.view.hud import Hud
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records

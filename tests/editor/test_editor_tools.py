@@ -183,7 +183,7 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
     assert tools.ghost is None
     assert tools.paste()
     assert tools.undo()
-    assert (tools.ghost, tools.draft) == (None, before), "only what hangs at the pointer is given up"
+    assert (tools.ghost, tools.draft) == (None, before), "only what hangs at the pointer is removed"
     assert tools.paste()
     drag(tools, (300, 300))
     assert tools.draft.tile((11, 12)) == 2

@@ -243,7 +243,7 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
     monkeypatch.setattr("ninja_game.search.certify.certify_all", certify_all)
     monkeypatch.setattr("ninja_game.search.solve.compile_solver", lambda: None)
     monkeypatch.setattr(ready_pack, "monotonic", lambda: now)
-    ready_pack._certify(Pack(pack), pack, 20.0, 1, lambda text, share: progress_lines.append((text, share)), {})
+    ready_pack._certify(pack, {}, say=lambda text, share: progress_lines.append((text, share)), seconds=20.0, jobs=1)
     first, second = "level 1 of 2, First Steps (exit and all gold)", "level 2 of 2, Mind the Gap (exit and all gold)"
     assert [text for text, _ in progress_lines if "so far" in text] == [
         f"Certifying {first}: 0 s so far, about 80 s left",

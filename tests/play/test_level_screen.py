@@ -125,7 +125,7 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     assert screen.attempt.outcome == "running"
 
 
-def test_a_run_that_was_given_up_is_watched_as_far_as_it_went(app: App, recording: Recording) -> None:
+def test_a_run_that_was_ended_by_the_player_is_watched_as_far_as_it_went(app: App, recording: Recording) -> None:
     screen = open_level(app, recording)
     tap(app, "confirm", pictures=3)
     press("suicide")

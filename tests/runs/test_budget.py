@@ -24,8 +24,9 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs import compare
-from ninja_game.runs.compare import aligned, run_splits
+from ninja_game.runs.compare import aligned
 from ninja_game.runs.run import record_replay
+from ninja_game.runs.splits import run_splits
 from ninja_game.runs.trace import Difference, first_difference, trace_level, trace_recording
 from ninja_game.runs.verify import verify_recording
 from ninja_game.search.certificate import named_replay, save_replay, verified_run

@@ -11,17 +11,9 @@ from ninja_game import ArgumentError, parse_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay
-from ninja_game.runs.compare import (
-    NEAR_DISTANCE,
-    aligned,
-    best_run,
-    compare_runs,
-    each_second,
-    run_splits,
-    split_table,
-    sum_of_best,
-)
+from ninja_game.runs.compare import NEAR_DISTANCE, aligned, compare_runs, each_second
 from ninja_game.runs.run import run_level
+from ninja_game.runs.splits import best_run, run_splits, split_table, sum_of_best
 from ninja_game.simulation import Simulation
 from tests.support.samples import SPIKED, WALK_END, replay_of_walk
 

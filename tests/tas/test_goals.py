@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.load import load_replays
-from ninja_game.runs.compare import run_splits
+from ninja_game.runs.splits import run_splits
 from ninja_game.search.formula.task import SpanTask, SpanWorlds
 from ninja_game.tas.files import open_run
 from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, collect_too, reach_exit, same_end, whole_run

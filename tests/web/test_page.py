@@ -197,7 +197,7 @@ def test_what_throws_in_a_turn_is_reported_and_nothing_foreign_runs(new_visitor:
 
 
 @pytest.mark.slow
-def test_a_memory_that_cannot_be_used_is_given_up_and_a_game_that_ends_says_so(new_visitor: NewVisitor) -> None:
+def test_a_memory_that_cannot_be_used_is_deleted_and_a_game_that_ends_says_so(new_visitor: NewVisitor) -> None:
     visitor = new_visitor()
     visitor.visit()
     visitor.page.evaluate("() => ninjaGame.kept")

@@ -19,7 +19,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.good_levels import LEVEL_AREA, GoodLevel, GoodLevelsScreen
 from ninja_game.play.replay.paths import paths_picture
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.runs.compare import run_splits
+from ninja_game.runs.splits import run_splits
 from ninja_game.ui.theme import PALETTES
 from tests.support.level_maker import Maker, examine
 from tests.support.menu_driver import MenuDriver

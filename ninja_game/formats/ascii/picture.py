@@ -161,26 +161,14 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
         more = COLUMNS - len(cells)
         column = start + min(len(cells), COLUMNS)
         hint = f"{abs(more)} too {'few' if more > 0 else 'many'}"
-        problems.add(
-            f"row {number} of the picture has the wrong width",
-            line,
-            column,
-            found=f"{len(cells)} characters",
-            expected=f"{COLUMNS}",
-            hint=hint,
-        )
+        what, found = f"row {number} of the picture has the wrong width", f"{len(cells)} characters"
+        problems.add(what, line, column, found=found, expected=f"{COLUMNS}", hint=hint)
     for offset, char in enumerate(cells[:COLUMNS]):
         if char not in TILE_OF_CHAR and char not in SYMBOL_OF_CHAR and char != ODD_TILE:
             meant = _similar(char)
             hint = f"did you mean {meant}?" if meant else "'ninja-game convert --legend' writes the legend"
-            problems.add(
-                "a character that is not in the legend",
-                line,
-                start + offset,
-                found=repr(char),
-                hint=hint,
-                expected="a tile or an object",
-            )
+            what, expected = "a character that is not in the legend", "a tile or an object"
+            problems.add(what, line, start + offset, found=repr(char), expected=expected, hint=hint)
     return cells, start
 
 
@@ -218,12 +206,9 @@ def merge_picture_and_list(
             continue
         if cell in conflicts:
             placed, wanted = conflicts[cell]
-            problems.add(
-                f"picture and list disagree at {cell[0]},{cell[1]}",
-                *picture.where(cell),
-                found=_named(symbol),
-                expected=f"{_named(wanted)}, as line {placed.line} says",
-            )
+            what = f"picture and list disagree at {cell[0]},{cell[1]}"
+            expected = f"{_named(wanted)}, as line {placed.line} says"
+            problems.add(what, *picture.where(cell), found=_named(symbol), expected=expected)
         elif symbol.values is None:
             example = _NEEDED_LINES[symbol.char].format(cell=f"{cell[0]},{cell[1]}")
             problems.add(

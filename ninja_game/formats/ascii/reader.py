@@ -105,16 +105,10 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
         key, colon, value = line.partition(":")
         key = key.strip()
         if not colon:
-            problems.add(
-                "not a header line",
-                number,
-                1,
-                found=shown(line.strip()),
-                expected="key: value, or the first row of the picture, |...|",
-                hint="comments begin with ;"
-                if line.lstrip().startswith(("#", "//"))
-                else "objects are listed below the picture",
-            )
+            expected = "key: value, or the first row of the picture, |...|"
+            is_comment = line.lstrip().startswith(("#", "//"))
+            hint = "comments begin with ;" if is_comment else "objects are listed below the picture"
+            problems.add("not a header line", number, 1, found=shown(line.strip()), expected=expected, hint=hint)
         elif key not in HEADER_KEYS:
             problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
         elif key in fields:

@@ -131,15 +131,8 @@ def parse_index(text: str, *, file: str = "") -> PackIndex:
         if missing := next((key for key, value in values.items() if not value), ""):
             raise PackError(f"accept without its {missing}", file, entry.start, expected=f'{missing} = "…"')
         accepted.append(Accepted(**values))
-    return PackIndex(
-        name,
-        whole.text("author"),
-        whole.text("comment"),
-        columns,
-        _episodes(whole),
-        whole.text("version"),
-        tuple(accepted),
-    )
+    author, comment, version = map(whole.text, ("author", "comment", "version"))
+    return PackIndex(name, author, comment, columns, _episodes(whole), version, tuple(accepted))
 
 
 def _episodes(whole: _Table) -> tuple[EpisodeIndex, ...]:

@@ -49,6 +49,8 @@ class Toolbar(EditorPart):
 
 
 class StatusLine(EditorPart):
+    """The line below the level: what the next click does, and what is under the pointer."""
+
     area = LAYOUT.status
 
     def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
@@ -60,9 +62,9 @@ class StatusLine(EditorPart):
         tools = self.session.tools
         if tools.placing_switch:
             what = object_type_name(tools.brush.spec)
-            return f"Now the switch of the {what}: click where it is. Esc puts the {what} away"
+            return f"Now the switch of the {what}: click where it is. Esc removes the {what}"
         if tools.ghost:
-            return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc gives up"
+            return "Click where it is pasted; H, J, U mirror, flip and turn it; Esc cancels"
         number = message_near(tools.draft, *tools.pointer) if self.view.hovering else None
         if number is not None:
             message = parse_messages(tools.draft.says)[number]
@@ -104,6 +106,6 @@ _TOOL_HINTS = {
     "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
     "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
     "fill": "A click fills what is joined and alike. F1: help",
-    "select": "Click or drag a frame; drag moves it, with Ctrl a copy; Shift adds, right button gives up. F1: help",
+    "select": "Click or drag a frame; drag moves it, with Ctrl a copy; Shift adds, right button cancels. F1: help",
     "pick": "Click what to draw with. F1: help",
 }

@@ -6,19 +6,19 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.examination import UNREACHABLE_CODES
-from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source, save as save_draft
+from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
 from ninja_game.editor.palette import SNAPS
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import Stamp, level_stamp, with_stamp
 from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
-from ninja_game.files.user_folder import LEVELS, STAMPS, free_path, short_path
+from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
 from ninja_game.formats.messages import parse_messages
 from ninja_game.levels.episodes import GAME, Entry, Mood
@@ -30,9 +30,9 @@ from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, finding_points
-from ninja_game.play.editor.stamp_menu import StampMenu
+from ninja_game.play.editor.stamp_menu import StampCommands
 from ninja_game.play.editor.view import DOUBLE, EditorView
-from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, Question, ask_text, nothing
+from ninja_game.play.menu_screen import CANCEL, Action, DropDown, FormPanel, Menu, MenuRow, ask_text, nothing
 from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
@@ -41,7 +41,7 @@ from ninja_game.runs.messages import heard
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
-from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.theme import Area
 from ninja_game.ui.widgets import next_option
@@ -62,11 +62,11 @@ what is selected."""
 
 
 NAMELESS = "My level"  # the name of a level to which its maker gave none
+
 _IN_MENU = {"save", "save_as", "open", "new", "about", "messages", "playtest", "certify"}
+"""The commands whose keys work in the File menu."""
 
-IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")
-
-STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
+IN_MORE = ("reach", "playtests", "paths", "lines", "list", "slopes", "next_finding")  # the commands in the menu More
 
 _MIRRORS = {
     "off": "off",
@@ -84,36 +84,44 @@ def _shown(shown: bool) -> str:
     return "shown" if shown else "hidden"
 
 
+class Steps(NamedTuple):
+    """What a command goes through, one step each time. ``actions``: by the steps' names; ``now``: the present step."""
+
+    actions: dict[str, Action]
+    now: str
+
+
 class EditorCommands(DocumentCommands):
-    """Runs commands by name (``EDITOR_COMMANDS``)."""
+    """Does the commands of ``EDITOR_COMMANDS`` by their names."""
 
     def __init__(self, app: App, session: EditorSession, view: EditorView, palette: PaletteView) -> None:
         super().__init__(app, session)
         self.session = session
         self.view = view
         self._palette = palette
+        self._stamps = StampCommands(app, session.tools)
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
-        tools, steps = self.session.tools, self._steps()
+        tools = self.session.tools
         if name in TOOLS:
             tools.finish()
             tools.tool = name
-        elif name in steps:
-            actions, now = steps[name]
-            actions[next_option(list(actions), now)]()
+        elif steps := self._steps().get(name):
+            steps.actions[next_option(list(steps.actions), steps.now)]()
         else:
             self._table()[name]()
 
-    def _steps(self) -> dict[str, tuple[dict[str, Action], str]]:
-        """The steps of the commands that go on to the next one, by their names, and the present step."""
-        tools, view, brush, mirrors = self.session.tools, self.view, self.session.tools.brush, _MIRRORS
+    def _steps(self) -> dict[str, Steps]:
+        """The steps of the commands that have several, by the commands' names."""
+        tools, view, brush = self.session.tools, self.view, self.session.tools.brush
+        mirror = _MIRRORS[brush.symmetry]
         return {
-            "next_tool": ({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
-            "takes": ({what: partial(tools.take, what) for what in TAKES}, tools.takes),
-            "symmetry": ({mirrors[name]: partial(self.mirror, name) for name in mirrors}, mirrors[brush.symmetry]),
-            "grid": ({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
-            "snap_next": ({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
+            "next_tool": Steps({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
+            "takes": Steps({what: partial(tools.take, what) for what in TAKES}, tools.takes),
+            "symmetry": Steps({_MIRRORS[name]: partial(self.mirror, name) for name in _MIRRORS}, mirror),
+            "grid": Steps({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
+            "snap_next": Steps({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
         }
 
     def _table(self) -> dict[str, Action]:
@@ -126,7 +134,7 @@ class EditorCommands(DocumentCommands):
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "messages": self.messages,
             "undo": self.undo, "redo": self.redo,
-            "stamps": self.stamps, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
+            "stamps": self._stamps.choose, "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
             "choose_all": tools.choose_all, "delete": tools.delete,
             "swap": lambda: tools.pick_up(tools.brush.tile if tools.brush.draws_objects else tools.brush.spec),
             "mirror": lambda: view.turn(MIRROR), "flip": lambda: view.turn(FLIP),
@@ -162,62 +170,11 @@ class EditorCommands(DocumentCommands):
         if text or always:
             self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
 
-    def stamps(self) -> None:
-        """Choose a stamp to paste, or keep what is selected, or was copied, as one."""
-        tools = self.session.tools
-        tools.copy()
-        keep = partial(self._keep_stamp, tools.clipboard) if tools.clipboard else None
-        files = sorted(self._stamps.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
-        rows: list[MenuRow] = [
-            (path.stem, partial(self._load, partial(self._take_stamp, path)), short_path(path)) for path in files
-        ]
-        rows.append(("Keep as a stamp...", keep, "What is selected; without that, what was copied last"))
-        change: list[MenuRow] = [(path.stem, partial(self._change_stamp, path), short_path(path)) for path in files]
-        if files:
-            menu = StampMenu(self.app, "Rename or delete which stamp?", files, [*change, CANCEL])
-            rows.append(("Rename or delete...", partial(self.app.push, menu), ""))
-        self.app.push(StampMenu(self.app, "Stamps", files, [*rows, CANCEL]))
-
-    def _change_stamp(self, path: Path) -> None:
-        def rename(name: str) -> None:
-            if (stem := file_stem(name.strip(), path.stem)) != path.stem:
-                path.rename(free_path(self._stamps, stem, SUFFIX))
-
-        app, load = self.app, self._load
-        ask = partial(ask_text, app, f"Rename {path.stem}", "Name", path.stem, "Rename")
-        delete = Question(
-            app,
-            f"Delete the stamp {path.stem}?",
-            "Delete it",
-            partial(load, partial(path.unlink, missing_ok=True)),
-            short_path(path),
-        )
-        rows: list[MenuRow] = [
-            ("Rename...", lambda: ask(lambda name: load(partial(rename, name)), 40), ""),
-            ("Delete...", partial(app.push, delete), ""),
-        ]
-        app.push(Menu(app, path.stem, [*rows, CANCEL]))
-
-    def _take_stamp(self, path: Path) -> None:
-        self.session.tools.clipboard = level_stamp(open_source(path).draft)
-        self.session.tools.paste()
-
-    def _keep_stamp(self, stamp: Stamp) -> None:
-        def keep(name: str) -> None:
-            path = free_path(self._stamps, file_stem(name.strip(), "stamp"), SUFFIX)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            save_draft(Source(Draft(Level())), with_stamp(Draft(Level(), name), stamp), path)
-            self.app.notify(f"Kept as a stamp: {path.stem}")
-
-        prompt, load = "Name of the stamp", self._load
-        ask_text(self.app, "Keep as a stamp", prompt, "", "Keep", lambda name: load(partial(keep, name)), 40)
-
     def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
-        if name in (steps := self._steps()):
-            actions, now = steps[name]
-            rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in actions.items()]
-            self.app.push(DropDown(self.app, button, rows, at=list(actions).index(now)))
+        if steps := self._steps().get(name):
+            rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in steps.actions.items()]
+            self.app.push(DropDown(self.app, button, rows, at=list(steps.actions).index(steps.now)))
         else:
             self.run(name)
 
@@ -315,11 +272,8 @@ class EditorCommands(DocumentCommands):
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
-        runs = [
-            session.certifying_inputs,
-            *(run.inputs for run in session.playtests.shown[-1:] if run.level == level),
-            waits,
-        ]
+        last = [playtest.inputs for playtest in session.playtests.shown[-1:] if playtest.level == level]
+        runs = [session.certifying_inputs, *last, waits]
         with suppress(LevelError):  # without a ninja, which the playtest reports
             moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
@@ -350,7 +304,7 @@ class EditorCommands(DocumentCommands):
         else:
             start()
 
-    # --- files ---
+    # --- menus ---
 
     def menu(self) -> None:
         """Cancel one thing: a drawing, the selection, a tool. Show that the next press opens the menu."""
@@ -373,7 +327,7 @@ class EditorCommands(DocumentCommands):
                 self.playtest(self.session.tools.pointer)
 
         def ask() -> None:
-            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc gives up"
+            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc cancels"
 
         here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("playtest_here", *IN_MORE))
         choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
@@ -398,11 +352,9 @@ class EditorCommands(DocumentCommands):
             *in_page_or_not([], [("Packs...", self.packs, "Bundle your levels; Back leads here")]),
             ("Leave the editor", self.leave, ""),
         ]  # fmt: skip
-        self.app.push(CommandMenu(self.app, "Level", rows, EDITOR_COMMANDS, _IN_MENU, self.run))
+        self.app.push(CommandMenu(self.app, "Level", rows, table=EDITOR_COMMANDS, names=_IN_MENU, run=self.run))
 
-    @property
-    def _stamps(self) -> Path:
-        return self.app.player.folder / STAMPS
+    # --- files ---
 
     @property
     def _levels(self) -> Path:

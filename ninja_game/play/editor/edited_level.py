@@ -39,7 +39,7 @@ class EditedLevel:
         self.at_pointer = PointerSearches()
         self.known_runs = NewestJob(_search_of_known)  #: plays a run that may certify the level
         self.kept_runs: tuple[object, ...] = ()  #: the runs written last beside the file, and its path
-        self.resting = self.draft.level, 0.0  #: the level, and when it became that, s
+        self.unchanged, self.unchanged_since = self.draft.level, 0.0  #: the level of the last update; since when, s
         self.objects = self.draft.objects  #: those after the last stroke
         self.looked_at = 0.0  #: when the file was checked for changes, s
         self._stamp = NO_FILE

@@ -94,6 +94,8 @@ class Findings(EditorPart):
 
 
 class FilePart(EditorPart):
+    """The name and file of the level, whether it is saved, and the state of its certificate."""
+
     area = LAYOUT.file
     panel = LAYOUT.file
 

@@ -27,6 +27,8 @@ from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Palette, wrapped
 from ninja_game.ui.widgets import Button, Choice, Label, Widget
 
+_RowMaker = Callable[[Area], Widget | Sequence[Widget]]  # makes the widgets of a row in its place
+
 _ROW_HEIGHT = 22.5  # px
 
 _MESSAGE_LINES = 4  # the most lines of a message in the panel
@@ -69,14 +71,11 @@ def _title(verb: str, cells: int, objects: int) -> str:
     return f"{verb}: {counted(cells, 'cell') + ', ' if cells else ''}{counted(objects, 'object')}"
 
 
-def _turning(view: EditorView) -> Callable[[Area], Sequence[Widget]]:
+def _turning(view: EditorView) -> _RowMaker:
     turns = {"mirror": MIRROR, "flip": FLIP, "turn": CLOCKWISE}
     return _button_row(
         [(name.capitalize(), partial(view.turn, turn), EDITOR_COMMANDS.hint(name)) for name, turn in turns.items()]
     )
-
-
-_RowMaker = Callable[[Area], Widget | Sequence[Widget]]  # makes the widgets of a row in its place
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
@@ -135,7 +134,7 @@ def _of_several(view: EditorView) -> tuple[str, list[_RowMaker]]:
     cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
     rows: list[_RowMaker] = [_choice(tools, name) for name in _common(tools.subjects)]
     rows.append(_turning(view))
-    rows += [_arranging(tools, head) for head in _ARRANGING]
+    rows += [_align_buttons(tools, head) for head in _ARRANGING]
     remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
     last: list[MenuRow] = [
         ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
@@ -183,7 +182,7 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 """Rows of buttons that align objects, with axis and share of ``stamp.arranged``."""
 
 
-def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widget]]:
+def _align_buttons(tools: EditorTools, head: str) -> _RowMaker:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
         able, verb = most > 1 + (share is None), head or "Align"
@@ -193,8 +192,8 @@ def _arranging(tools: EditorTools, head: str) -> Callable[[Area], Sequence[Widge
     return _button_row(buttons, head, 30)
 
 
-def _button_row(buttons: Sequence[MenuRow], head: str = "", room: int = 0) -> Callable[[Area], Sequence[Widget]]:
-    """Buttons side by side, behind a word of that width."""
+def _button_row(buttons: Sequence[MenuRow], head: str = "", room: int = 0) -> _RowMaker:
+    """Buttons side by side, behind the word ``head``, which has ``room`` px."""
 
     def make(area: Area) -> Sequence[Widget]:
         x, y, w, h = area
@@ -241,7 +240,7 @@ def _present(tools: EditorTools, name: str) -> str:
     return words.pop() if len(words) == 1 else ""
 
 
-def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
+def _choice(tools: EditorTools, name: str) -> _RowMaker:
     """A choice of the words of a property; "(other)" for values without a word, "(several)" where subjects differ."""
 
     def put(text: str) -> None:
@@ -257,7 +256,7 @@ def _choice(tools: EditorTools, name: str) -> Callable[[Area], Widget]:
     return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 
-def _place(tools: EditorTools, part: int) -> Callable[[Area], Sequence[Widget]]:
+def _place(tools: EditorTools, part: int) -> _RowMaker:
     """The place of a part, as a text behind its name: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:

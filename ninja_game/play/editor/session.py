@@ -160,9 +160,10 @@ class EditorSession:
     def _search_again(self) -> None:
         """A search under way follows the level: at once while it waits, else once nothing has changed for REST."""
         edited, certifier, level = self.edited, self.certifier, self.draft.level
-        if level is not edited.resting[0]:
-            edited.resting = level, monotonic()
-        rests = not self.tools.history.in_stroke and (certifier.is_waiting or monotonic() - edited.resting[1] >= REST)
+        if level is not edited.unchanged:
+            edited.unchanged, edited.unchanged_since = level, monotonic()
+        due = certifier.is_waiting or monotonic() - edited.unchanged_since >= REST
+        rests = due and not edited.history.in_stroke
         stale = rests and certifier.is_busy and certifier.is_stale(level)
         if stale and {NINJA, EXIT} <= {spec.kind for spec in level.objects}:
             certifier.start(level)

@@ -115,12 +115,11 @@ class LevelSheet:
         self.marks = marks
         self._dirty += [rect for mark in changed for rect in mark.rects]
 
-    def show_grid(self, lines: Iterable[tuple[bool, float, bool]]) -> None:
-        """Show grid lines: whether vertical, position (px of the level), whether a middle line."""
+    def show_grid(self, lines: Iterable[GridLine]) -> None:
         self._grid = []
-        for upright, at, middle in lines:
-            colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
-            area = (at, CELL, 0, CELL * ROWS) if upright else (CELL, at, CELL * COLUMNS, 0)
+        for line in lines:
+            colour = (*self.palette.accent[:3], 150) if line.is_middle else (*self.palette.text[:3], 60)
+            area = (line.at, CELL, 0, CELL * ROWS) if line.upright else (CELL, line.at, CELL * COLUMNS, 0)
             left, top, width, height = self.flat.rect(*area)
             self._grid.append((colour, pygame.Rect(left, top, width + 1, height + 1)))
         self._dirty.append(self._seen)
@@ -182,6 +181,14 @@ SIGN = 7.0  # half the height of a finding's sign, px
 SIGN_AWAY = 14.0  # from its cause, across and up, px
 
 
+class GridLine(NamedTuple):
+    """A vertical or level line at so many px of the level; one in the middle is in every grid."""
+
+    upright: bool
+    at: float
+    is_middle: bool = False
+
+
 class Grid(NamedTuple):
     """Lines every ``step`` px from the level's corner, moved by ``shift``; 0: none."""
 
@@ -189,8 +196,7 @@ class Grid(NamedTuple):
     step: float
     shift: float = 0.0
 
-    def lines(self) -> Iterator[tuple[bool, float, bool]]:
-        """Each line: whether vertical, position (px), whether one of the two middle lines, which every grid has."""
+    def lines(self) -> Iterator[GridLine]:
         if not self.step:
             return
         for upright, middle in ((True, MIDDLE[0]), (False, MIDDLE[1])):
@@ -199,8 +205,8 @@ class Grid(NamedTuple):
             for number in range(ceil(length / step)):
                 at = CELL + self.shift + number * step
                 if CELL < at < CELL + length and at != middle:
-                    yield upright, at, False
-            yield upright, middle, True
+                    yield GridLine(upright, at)
+            yield GridLine(upright, middle, is_middle=True)
 
 
 GRIDS = (

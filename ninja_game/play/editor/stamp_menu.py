@@ -1,24 +1,32 @@
-"""A menu of stamps with their pictures, beside the rows."""
+"""The menus of stamps: cells and objects that are kept as files, with their pictures beside the rows."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import pygame
 
-from ninja_game.editor.files import open_source
+from ninja_game.editor.draft import Draft
+from ninja_game.editor.files import SUFFIX, Source, open_source, save as save_draft
 from ninja_game.editor.specs import points
-from ninja_game.editor.stamp import area_around, level_stamp
+from ninja_game.editor.stamp import Stamp, area_around, level_stamp, with_stamp
+from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import file_stem
+from ninja_game.files.user_folder import STAMPS, free_path, short_path
 from ninja_game.play.app import App
-from ninja_game.play.menu_screen import Menu, MenuRow
+from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow, Question, ask_text
 from ninja_game.sim.grid import cell_of
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import COLUMNS, Level, ObjectSpec
 from ninja_game.view.sprites.thumbnail import thumbnail
 
 _WIDE, _HIGH, _CELL = 44.0, 28.0, 10.0  # the most room of a picture, and the largest side of a cell in it, px
+
+
+STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
 
 
 class StampMenu(Menu):
@@ -60,3 +68,56 @@ class StampMenu(Menu):
         stamp_picture = pygame.Surface(area.size)
         stamp_picture.blit(picture, (0, 0), area)
         return stamp_picture
+
+
+class StampCommands:
+    """Pasting, keeping, renaming and deleting stamps."""
+
+    def __init__(self, app: App, tools: EditorTools) -> None:
+        self.app = app
+        self._tools = tools
+        self._folder = app.player.folder / STAMPS
+
+    def choose(self) -> None:
+        """Ask for a stamp to paste; what is selected, or was copied last, can be kept as one."""
+        app, tools = self.app, self._tools
+        tools.copy()
+        keep = partial(self._keep, tools.clipboard) if tools.clipboard else None
+        ask = keep and partial(ask_text, app, "Keep as a stamp", "Name of the stamp", "", "Keep", keep, 40)
+        files = sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)[:STAMPS_SHOWN]
+        rows: list[MenuRow] = [(path.stem, partial(self._paste, path), short_path(path)) for path in files]
+        rows.append(("Keep as a stamp...", ask, "What is selected; without that, what was copied last"))
+        change: list[MenuRow] = [(path.stem, partial(self._change, path), short_path(path)) for path in files]
+        if files:
+            menu = StampMenu(app, "Rename or delete which stamp?", files, [*change, CANCEL])
+            rows.append(("Rename or delete...", partial(app.push, menu), ""))
+        app.push(StampMenu(app, "Stamps", files, [*rows, CANCEL]))
+
+    def _paste(self, path: Path) -> None:
+        with self.app.noting():
+            self._tools.clipboard = level_stamp(open_source(path).draft)
+            self._tools.paste()
+
+    def _keep(self, stamp: Stamp, name: str) -> None:
+        with self.app.noting():
+            path = free_path(self._folder, file_stem(name.strip(), "stamp"), SUFFIX)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            save_draft(Source(Draft(Level())), with_stamp(Draft(Level(), name), stamp), path)
+            self.app.notify(f"Kept as a stamp: {path.stem}")
+
+    def _change(self, path: Path) -> None:
+        app, name, delete = self.app, path.stem, partial(self._delete, path)
+        ask = partial(ask_text, app, f"Rename {name}", "Name", name, "Rename", partial(self._rename, path), 40)
+        question = Question(app, f"Delete the stamp {name}?", "Delete it", delete, short_path(path))
+        rows: list[MenuRow] = [("Rename...", ask, ""), ("Delete...", partial(app.push, question), "")]
+        app.push(Menu(app, name, [*rows, CANCEL]))
+
+    def _rename(self, path: Path, name: str) -> None:
+        stem = file_stem(name.strip(), path.stem)
+        if stem != path.stem:
+            with self.app.noting():
+                path.rename(free_path(self._folder, stem, SUFFIX))
+
+    def _delete(self, path: Path) -> None:
+        with self.app.noting():
+            path.unlink(missing_ok=True)

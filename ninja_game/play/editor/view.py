@@ -213,6 +213,14 @@ class Hint(NamedTuple):
     offers_menu: bool = False
 
 
+class Press(NamedTuple):
+    """A press on the level, and the draft before it; two of them are a double click."""
+
+    cell: Cell
+    ms: int
+    draft: Draft
+
+
 class EditorView(Pane):
     """The level under edit with its overlay."""
 
@@ -221,16 +229,18 @@ class EditorView(Pane):
     def __init__(self, app: App, session: EditorSession) -> None:
         self.app = app
         self.session = session
-        self.hovering = self.by_keys = False  #: whether the pointer is shown; whether keys or a pad moved it last
+        self.hovering = False  #: whether the pointer is shown
+        self.by_keys = False  #: whether keys or a pad moved it last
         self._hint = Hint(session.draft, "")
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.listing = self.playtest_map = False  #: whether a list replaces the palette; whether that map is shown
+        self.listing = False  #: whether the list of objects replaces the palette
+        self.playtest_map = False  #: whether the map of playtests is shown
         #: gets the cell of the next press, which then draws nothing; None: cancelled
         self.taker: Callable[[Cell | None], None] | None = None
         session.tools.gave_up = self._tell_given_up
         self.open_message: Callable[[int], object] = lambda _: None  #: gets the number of a double-clicked message
-        self._pressed: tuple[Cell, int, Draft] | None = None
+        self._pressed: Press | None = None
         self._message: int | None = None  #: the number of the message on whose bubble Select was clicked last
         self.camera = Camera(2.0 ** (1 / DOUBLE), 4.0)  #: the shown part of the level
         self.finding = -1  #: the number of the problem that was gone to last
@@ -259,7 +269,7 @@ class EditorView(Pane):
         self._hint = Hint(self.session.draft, "Esc again opens the File menu, where Leave is too", offers_menu=True)
 
     def _tell_given_up(self, spec: ObjectSpec) -> None:
-        self.app.notify(f"The {object_type_name(spec)} is put away: it had no switch yet")
+        self.app.notify(f"The {object_type_name(spec)} is removed: it had no switch yet")
 
     @property
     def message(self) -> int | None:
@@ -324,28 +334,27 @@ class EditorView(Pane):
         self.sheet.show_grid(grid.lines())
 
     def press(self, *, erase: bool = False, pick: bool = False, add: bool = False, copies: bool = False) -> None:
-        cell = self.session.tools.cell
+        tools, cell = self.session.tools, self.session.tools.cell
         if self.taker:
             if erase or (is_inside(cell) and not pick):
                 self.take(None if erase else cell)
             return
-        tools = self.session.tools
         free = tools.tool == "select" and not (erase or pick or tools.ghost or tools.near(PICK_REACH))
         self._message = message_near(tools.draft, *tools.pointer) if free else None
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
-        self._pressed = cell, now, self.session.draft
-        twice = before and before[0] == cell and now - before[1] < DOUBLE_MS
-        number = message_near(before[2], *self.session.tools.pointer) if before and twice else None
+        self._pressed = Press(cell, now, tools.draft)
+        twice = before and before.cell == cell and now - before.ms < DOUBLE_MS
+        number = message_near(before.draft, *tools.pointer) if before and twice else None
         if before and number is not None:
             # Undo what the first click of the two has drawn.
-            self.session.tools.finish()
-            if self.session.draft is not before[2]:
-                self.session.tools.undo()
+            tools.finish()
+            if tools.draft is not before.draft:
+                tools.undo()
             self._pressed = None
             self.open_message(number)
             return
         self._held = True
-        self.session.tools.press(erase=erase, pick=pick, add=add, copies=copies)
+        tools.press(erase=erase, pick=pick, add=add, copies=copies)
 
     def turn(self, motion: Motion) -> None:
         if not self.session.tools.turn(motion):

@@ -81,12 +81,8 @@ class EdgeStates(Figure):
         neighbour = self.cell + tiles.NEIGHBOUR_OFFSET[self.side]
         face = tiles.FACE[4 * tile + self.side]
         other = tiles.FACE[4 * self.tiles.ids[neighbour] + (self.side ^ 2)]
-        states = [
-            self.world.edges[4 * cell + side]
-            for cell in range(len(tiles.EXISTS))
-            if tiles.EXISTS[cell]
-            for side in range(4)
-        ]
+        cells = [cell for cell, exists in enumerate(tiles.EXISTS) if exists]
+        states = [self.world.edges[4 * cell + side] for cell in cells for side in range(4)]
         return [
             ("cell", f"column {column}, row {row}: {tile_name(tile)}"),
             ("1. its own face there", FACES[face]),
@@ -167,12 +163,8 @@ class Doors(EdgeStates):
         drone = next(o for o in self.world.objects if o.kind == DRONE)
         sheet.circle(palette.switch, drone.x, drone.y, DRONE_RADIUS, 2)
         side = _DIRECTIONS.index(self.drone_goes())
-        sheet.arrow(
-            palette.switch,
-            (drone.x, drone.y),
-            (drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]),
-            3,
-        )
+        goal = drone.x + 20 * tiles.UNIT_X[side], drone.y + 20 * tiles.UNIT_Y[side]
+        sheet.arrow(palette.switch, (drone.x, drone.y), goal, 3)
         sheet.text("drone", drone.x - 32, drone.y - 14)
         sheet.text("turret", self.turret[0], self.turret[1] - 12)
 

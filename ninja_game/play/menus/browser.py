@@ -9,7 +9,7 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.reading import read_bytes
+from ninja_game.files.reading import file_stamp, read_bytes
 from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import DAILY, free_path
@@ -39,6 +39,7 @@ _PICTURE_SIZE = 60
 _SIDE, SIDE_WIDTH, COMMENT_HIGH = 436, 320, 85
 _SORT_ORDERS: list[tuple[str, object]] = [
     ("Mine first", "listed"),
+    ("Last changed", "changed"),
     ("Name", "name"),
     ("Author", "author"),
     ("Time", "time"),
@@ -148,6 +149,7 @@ class Browser(ThumbnailScreen):
         matching = [e for e in self.entries if all(word in _searched_text(e) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),
+            "changed": lambda e: 0 if e.source == GAME else -max(file_stamp(e.named.file)[1:2], default=0),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
             "difficulty": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
             "time": lambda e: mark.fastest if (mark := self.marks.get(e.digest)) else 1e9,
@@ -285,7 +287,7 @@ class LevelChoice(Browser):
 
     def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:
         super().__init__(app)
-        self._choose = choose
+        self._choose, self.sort = choose, "changed"
         self.list.hint = "Enter opens the level in the editor"
         self.change = Button((_SIDE, 470, SIDE_WIDTH, 32), "Edit", lambda: self.play(self.list.index))
 

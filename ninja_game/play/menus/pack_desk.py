@@ -166,10 +166,7 @@ class PackDesk(ThumbnailScreen):
 
     def edit_level(self, level: Entry) -> None:
         edit = partial(self.edit, level, None)
-        if Path(level.named.file).parent == self.path:
-            self.change_pack(edit, "Edit")
-        else:
-            edit()
+        self.change_pack(edit, "Edit") if Path(level.named.file).parent == self.path else edit()
 
     def ask_text_for(self, title: str, text: str, action: Callable[[str], object], needed: str = "") -> None:
         """Ask for a text, and change the pack with it. ``needed``: a notice where none is typed; then ask again."""
@@ -317,7 +314,7 @@ class PackDesk(ThumbnailScreen):
         if event.type == pygame.MOUSEBUTTONUP and isinstance(dragged, Rack):
             x, y = self.theme.canvas.logical(event.pos)
             if self.pointer is None:
-                if dragged.release():
+                if dragged.release() or self.moving:
                     self._open_cell(dragged.chosen)
             elif (index := self.shelves.at(x, y)) is not None:
                 self.pointer = (x, y)

@@ -139,6 +139,9 @@ class SettingsScreen(ThumbnailScreen):
             self._choice("Music in practice", "music_in_practice"),
         ]
 
+    def _overclock(self, gain: float) -> None:
+        self.app.overclock = round(gain)
+
     def _play(self) -> list[Widget]:
         widgets: list[Widget] = [
             self._choice("Practice mode", "practice", hint=PRACTICE_HINT),
@@ -148,16 +151,10 @@ class SettingsScreen(ThumbnailScreen):
             self._choice("Show keys in play", "show_keys"),
         ]
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
-            widgets.append(
-                Slider(
-                    self._area(),
-                    "Overclock, ms",
-                    (0, FASTEST_TICK_GAIN, 1),
-                    lambda: self.app.overclock,
-                    lambda value: setattr(self.app, "overclock", round(value)),
-                    hint="Speeds the game up until you quit",
-                )
-            )
+            span = 0, FASTEST_TICK_GAIN, 1
+            faster = Slider(self._area(), "Overclock, ms", span, lambda: self.app.overclock, self._overclock)
+            faster.hint = "Speeds the game up until you quit"
+            widgets.append(faster)
         folder = short_path(self.player.folder / LEVELS)
         texts = ("Put level files into this folder, and they appear under Levels:", folder)
         below = _TOP + _STEP * 9
@@ -207,7 +204,7 @@ class SettingsScreen(ThumbnailScreen):
         super().draw_frame(surface)
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
-        if self.page == "Picture":
+        if self.pages[self.page] == self._picture:
             # A preview of the palette: the first level of each column.
             episodes = self.player.catalogue.episodes
             firsts = [episodes[episode].levels[0] for episode in sorted(episodes) if episode % EPISODES_PER_COLUMN == 0]

@@ -31,7 +31,7 @@ from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.sprites.light import EXIT_OPEN, STYLES
 
 if TYPE_CHECKING:
-    from ninja_game.runs.compare import RunSplits
+    from ninja_game.runs.splits import RunSplits
 
 _TAIL = TICKS_PER_SECOND  # ticks that a film shows after the end
 
@@ -180,7 +180,7 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
     runs = (film.run, *film.beside)
     splits: list[list[tuple[int, str]]] = [[]] * len(runs)
     if film.splits:
-        from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
+        from ninja_game.runs.splits import SPLIT_EVENTS, run_splits
 
         events = SPLIT_EVENTS if film.gold else SPLIT_EVENTS[1:]
 

@@ -146,15 +146,9 @@ class RunSearch(SpanSearch):
         from ninja_game.search.task import Task
 
         super().__init__(task)
-        self._wanted = Task(
-            task.level,
-            task.body,
-            gold,
-            _MAX_SECONDS,
-            jobs=min(jobs or cores(), MAX_JOBS),
-            first=fit_inputs(task.inputs, task.length),
-            others=task.others,
-        )
+        threads = min(jobs or cores(), MAX_JOBS)
+        first = fit_inputs(task.inputs, task.length)
+        self._wanted = Task(task.level, task.body, gold, _MAX_SECONDS, jobs=threads, first=first, others=task.others)
         self._reaches = False
         self._lock = Lock()
         self._ticks = {True: 0, False: 0}

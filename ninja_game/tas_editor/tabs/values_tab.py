@@ -13,7 +13,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import MenuScreen, ask_text
 from ninja_game.play.workspace import Commands
-from ninja_game.runs.compare import SPLIT_EVENTS
+from ninja_game.runs.splits import SPLIT_EVENTS
 from ninja_game.search.formula.language import FormulaValues
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.timeline import Watch, parse_watch

@@ -23,7 +23,8 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import shared_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry
-from ninja_game.runs.compare import SPLIT_EVENTS, RunSplits, SplitRow, aligned, run_splits, split_table, sum_of_best
+from ninja_game.runs.compare import aligned
+from ninja_game.runs.splits import SPLIT_EVENTS, RunSplits, SplitRow, run_splits, split_table, sum_of_best
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.web.board.charts import PLACE, lead_chart, paths, signed, speed_and_keys, step_chart, swatch
 from ninja_game.web.board.parts import LESSER, NEAR, RUN_HEADS, UNKNOWN_ORIGIN, Parts, player_page

@@ -15,16 +15,7 @@ from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.pack.pars import MEDALS
 from ninja_game.levels.episodes import Entry
 from ninja_game.web.pages.frame import GAME_PAGE, LONG_CELL, REPLAYS, Content, Markup, Pages, joined, page, table, tag
-from ninja_game.web.pages.gallery import (
-    BOARD,
-    PICTURE_HEIGHT,
-    PICTURE_WIDTH,
-    UP,
-    medal_mark,
-    page_name,
-    picture_name,
-    watch_address,
-)
+from ninja_game.web.pages.gallery import BOARD, PICTURE_SIZE, UP, medal_mark, page_name, picture_name, watch_address
 
 PER_PAGE = 100  # rows of a table on one page: a page has at most 100 KB
 
@@ -208,8 +199,7 @@ def linked_level(entry: Entry, up: str = "") -> Markup:
 
 def card(entry: Entry, *facts: Content) -> Markup:
     """A level with its picture, both links, and lines about it. For a page in the board's own folder."""
-    size = {"width": PICTURE_WIDTH, "height": PICTURE_HEIGHT}
-    image = tag("img", src=picture_name(entry.digest), alt="", **size, loading="lazy")
+    image = tag("img", src=picture_name(entry.digest), alt="", **PICTURE_SIZE, loading="lazy")
     number = tag("span", f"Level {entry.number}", class_="number") if entry.number else None
     lines = (tag("p", fact, class_="facts") for fact in facts if fact)
     return tag("li", image, tag("h3", number, linked_level(entry)), *lines, class_="card")

@@ -97,16 +97,11 @@ class PlayerPages:
         for (level, part), runs in self.ranking.history.items():
             last = {run.player: number for number, run in enumerate(runs)}
             results = [self.parts.run_link(run, UP, self.parts.shown_value(part[1], run)) for run in runs]
+            record = linked_level(self.ranking.shown.entries[level], UP), self.ranking.leaderboard_name(part)
             for player, number in last.items():
-                best, by = runs[number], runs[number + 1] if number + 1 < len(runs) else None
-                about = (
-                    linked_level(self.ranking.shown.entries[level], UP),
-                    self.ranking.leaderboard_name(part),
-                    results[number],
-                    best.day,
-                )
+                by = runs[number + 1] if number + 1 < len(runs) else None
                 loss = (self.parts.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
-                (lost if by else kept)[player].append((*about, *loss))
+                (lost if by else kept)[player].append((*record, results[number], runs[number].day, *loss))
         return kept, lost
 
     def _runs_of(self, player: str, runs: Sequence[Run], lead: Sequence[Content]) -> None:

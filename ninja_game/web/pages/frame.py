@@ -232,15 +232,8 @@ def heading(text: str) -> Markup:
             points = [f"{x + left:.2f} {top + 3:.2f}" for left, top in line]
             moves.append("M" + "L".join(points if len(points) > 1 else points * 2))
         x += (letter.width if letter else 0.0) + LETTER_SPACING + WEIGHTS[1]
-    strokes = tag(
-        "path",
-        d="".join(moves),
-        fill="none",
-        stroke="currentColor",
-        stroke_width=str(WEIGHTS[1]),
-        stroke_linecap="round",
-        stroke_linejoin="round",
-    )
+    ink = {"fill": "none", "stroke": "currentColor", "stroke_width": str(WEIGHTS[1])}
+    strokes = tag("path", d="".join(moves), **ink, stroke_linecap="round", stroke_linejoin="round")
     box = f"0 0 {x:.1f} {CAP + 7:.1f}"
     picture = tag("svg", strokes, viewBox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
     return tag("h1", picture, tag("span", shown, class_="hidden"))

@@ -70,6 +70,7 @@ def watch_address(game: str, *stems: str) -> str:
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
+PICTURE_SIZE = {"width": PICTURE_WIDTH, "height": PICTURE_HEIGHT}
 GALLERY = "gallery"
 BOARD = "board"
 
@@ -170,14 +171,8 @@ def path_data(positions: NDArray[np.float64]) -> str:
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
-    return tag(
-        "img",
-        src=up + picture_name(entry.digest),
-        alt=f"Picture of the level {entry.title}",
-        width=PICTURE_WIDTH,
-        height=PICTURE_HEIGHT,
-        loading="lazy" if lazy else None,
-    )
+    alt = f"Picture of the level {entry.title}"
+    return tag("img", src=up + picture_name(entry.digest), alt=alt, **PICTURE_SIZE, loading="lazy" if lazy else None)
 
 
 def _play(entry: Entry, game: str) -> Content:

@@ -17,7 +17,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.examination import Question, examined
+from ninja_game.editor.examination import Question, problems_of
 from ninja_game.editor.files import open_source
 from ninja_game.editor.palette import object_of_type, placed, with_switch
 from ninja_game.editor.reach import LANDED_TICK, Ask, find_reach
@@ -35,8 +35,8 @@ from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, Task
 from ninja_game.sim.grid import cell_of, is_inside
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.level import Level
+from ninja_game.sim.kinds import EXIT, GOLD
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.ui.canvas import Canvas
 from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
@@ -89,6 +89,36 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     session.certifier.solver.job.finish(LONGEST)
     assert (at_once, kept.exists()) == ([False, True], True)
     assert reports[-2:] == ["Room: certified, 0.975 s, kept with the level", "Other: no run in 20 s"]
+
+
+@pytest.mark.parametrize(
+    "gold, wait, text",
+    [
+        (1, 0, "Certified: 0.975 s, 1 of 2 gold, hard. Kept when"),
+        (1, 5, "Certified: 0.975 s, all gold 1.100 s, hard. Kept when"),
+        (2, 0, "Certified: 0.975 s, all gold, hard. Kept when"),
+    ],
+)
+def test_the_card_says_how_much_gold_the_run_takes_and_how_hard_it_is(
+    room: Maker, monkeypatch: pytest.MonkeyPatch, gold: int, wait: int, text: str
+) -> None:
+    """With a run that takes all gold ``wait`` ticks later."""
+
+    def solve(task: Task, *, on_better: Callable[[Replay], object], **_: object) -> Replay:
+        if wait:
+            on_better(replace(verified_run(task.level, with_press_bits(bytes(wait) + RIGHT)), gold=2))
+        run = replace(verified_run(task.level, with_press_bits(RIGHT)), gold=gold)
+        on_better(run)
+        return run
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
+    monkeypatch.setattr("ninja_game.batch.difficulty.difficulty", lambda *_: 5.0)
+    pieces = [ObjectSpec(GOLD, (x, 60.0)) for x in (300.0, 324.0)]
+    room.editor.session.tools.history.change(room.draft.with_objects((*room.draft.objects, *pieces)))
+    room.press("f7")
+    room.wait(lambda: room.editor.session.certifier.certification.end)
+    assert text in " ".join(re.findall("text '(.*?)' at 616,", drawn(room.app)))
 
 
 def test_a_search_that_fails_ends_and_says_so_of_its_own_level_alone(
@@ -345,7 +375,8 @@ def test_an_exit_in_one_wall_with_its_switch_is_one_problem(room: Maker) -> None
     found = []
     for shut in (walls[0] | walls[1], walls[1]):
         level = room.draft.with_tiles(dict.fromkeys(shut, 1)).level
-        found.append([each.code for each in examined(Question(level, (), "", b"")).findings if exit_ in each.records])
+        findings = problems_of(Question(level, (), "", b"")).findings
+        found.append([finding.code for finding in findings if exit_ in finding.records])
     assert found == [["unreachable"], ["unreachable-switch"]]
 
 
@@ -366,9 +397,9 @@ def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
     assert started == [room.draft.level]
     exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
     never = level_finding("unreached-exit", (exit_,))
-    odd = examined(Question(room.draft.level, (never,), "", b"")).findings
+    odd = problems_of(Question(room.draft.level, (never,), "", b"")).findings
     assert [each.code for each in odd if exit_ in each.records] == ["unreachable"]
-    assert examined(Question(ROOM.level, (never,), "", b"")).findings == [never]
+    assert problems_of(Question(ROOM.level, (never,), "", b"")).findings == [never]
 
 
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")

@@ -1336,7 +1336,7 @@ def test_grey_buttons_that_align_say_why(room: Maker) -> None:
 
 
 @pytest.mark.parametrize("other", ["Box", "key", "palette", "test", "undo", "escape"])
-def test_a_door_without_its_switch_is_put_away_and_that_is_reported(room: Maker, other: str) -> None:
+def test_a_door_without_its_switch_is_removed_and_that_is_reported(room: Maker, other: str) -> None:
     before, view = room.draft, room.editor.view
     room.press("shift+k")
     room.drag((300, 300))
@@ -1353,7 +1353,7 @@ def test_a_door_without_its_switch_is_put_away_and_that_is_reported(room: Maker,
     assert room.draft == before
     assert view.hint == ("Undone: placed 1 locked door" if other == "undo" else "")
     room.mouse(*room.at(350, 330), click=False)
-    assert room.app.notice == ("" if other == "escape" else "The locked door is put away: it had no switch yet")
+    assert room.app.notice == ("" if other == "escape" else "The locked door is removed: it had no switch yet")
     if other == "test":
         room.press("escape")
     room.press("shift+k")

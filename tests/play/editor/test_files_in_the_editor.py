@@ -441,6 +441,18 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
     room.wait(lambda: room.editor.session.certifier.text.startswith("Certified: "), "an unchanged copy's certificate")
 
 
+def test_the_level_that_was_changed_last_is_the_first_to_open(room: Maker, tmp_path: Path) -> None:
+    text = Path("levels/00-0-first-steps.txt").read_text("utf-8")
+    for name, changed in (("a", 1.0), ("b", 3.0), ("c", 2.0)):
+        own = tmp_path / "levels" / f"{name}.txt"
+        own.write_text(text.replace("First Steps", name), "utf-8")
+        os.utime(own, (changed, changed))
+    room.chord("o", pygame.KMOD_LCTRL)
+    assert [entry.title for entry in room.shown(LevelChoice).shown[:4]] == ["b", "c", "a", "First Steps"]
+    room.press("return")
+    assert room.draft.name == "b"
+
+
 def test_enter_in_the_search_opens_the_only_level_that_is_found(room: Maker) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
     room.chord("o", pygame.KMOD_LCTRL)

@@ -87,7 +87,7 @@ def test_file_opens_its_menu_also_where_something_is_selected(room: Maker) -> No
     assert room.draft != ROOM, "nothing is drawn over the level that was left"
     tools.selection = everything(room.draft)
     room.press("escape")
-    assert (room.top(), bool(tools.selection)) == (room.editor, False), "the key gives up what is half done first"
+    assert (room.top(), bool(tools.selection)) == (room.editor, False), "the key cancels what is half done first"
 
 
 def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Maker) -> None:

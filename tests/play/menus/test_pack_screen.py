@@ -190,6 +190,10 @@ def test_keys_alone_move_a_level(desk: Desk, screen: PackScreen) -> None:
     assert desk.layout() == {0: ["00-1", "00-2", "00-3", "00-4"], 1: ["00-0", "01-0", "01-1", "01-2"]}
     desk.press("return")
     desk.choose("Move...")
+    desk.click(desk.place(1))
+    assert desk.layout() == {0: ["00-0", "00-1", "00-2", "00-3", "00-4"], 1: ["01-0", "01-1", "01-2"]}, "or a click"
+    desk.press("return")
+    desk.choose("Move...")
     desk.press("escape")
     desk.shown(PackScreen)
     desk.press("escape")

@@ -8,7 +8,7 @@ from unittest.mock import patch
 import pytest
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.runs.compare import RunSplits, run_splits
+from ninja_game.runs.splits import RunSplits, run_splits
 from ninja_game.search import solve as solve_module
 from ninja_game.search.certificate import without_idle_keys
 from ninja_game.search.formula import background
