@@ -13,10 +13,10 @@ from ninja_game.sim.level import Level
 UNREACHABLE_CODES = "unreachable", "unreachable-switch"
 """Codes of the findings about places that the ninja cannot reach."""
 
-SPACING = 0.1  # least seconds between two examinations of the level
+EXAMINATION_SPACING = 0.1  # least seconds between two examinations of the level
 
 
-class Question(NamedTuple):
+class LevelQuestion(NamedTuple):
     """A level to examine. ``obstacles``: what the solver has found; ``inputs``: of its known run, none without one."""
 
     level: Level
@@ -32,7 +32,7 @@ class Examined(NamedTuple):
     findings: list[Finding]
 
 
-def problems_of(question: Question) -> Examined:
+def problems_of(question: LevelQuestion) -> Examined:
     odd = level_problems(question.level, question.says, question.inputs)
     # An unreachable exit needs no finding of the solver too.
     out_of_reach = {number for finding in odd if finding.code in UNREACHABLE_CODES for number in finding.records}
@@ -45,7 +45,7 @@ class Examination:
 
     def __init__(self) -> None:
         self.job = NewestJob(problems_of)
-        self._asked: Question | None = None
+        self._asked: LevelQuestion | None = None
         self._asked_at = 0.0
 
     @property
@@ -58,11 +58,13 @@ class Examination:
         """The level of the last examination."""
         return self.job.result.level if self.job.result else None
 
-    def follow(self, question: Question, *, at_once: bool = False) -> None:
-        """Examine the level if anything in the question is new; within SPACING only if ``at_once``."""
+    def follow(self, question: LevelQuestion, *, at_once: bool = False) -> None:
+        """Examine the level if anything in the question is new; within EXAMINATION_SPACING only if ``at_once``."""
         before, now = self._asked, monotonic()
         # Large values are compared by identity: this runs at every picture.
         same = before and question.level is before.level and question.obstacles is before.obstacles
-        if not (before and same and question[2:] == before[2:]) and (at_once or now - self._asked_at >= SPACING):
+        if not (before and same and question[2:] == before[2:]) and (
+            at_once or now - self._asked_at >= EXAMINATION_SPACING
+        ):
             self._asked, self._asked_at = question, now
             self.job.ask(question)

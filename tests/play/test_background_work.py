@@ -14,7 +14,6 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
-from ninja_game.play.editor import session as editor_session
 from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.runtime import NewestJob
@@ -118,7 +117,7 @@ def test_a_daily_level_that_cannot_be_made_says_why(
 def test_a_level_that_cannot_be_examined_or_certified_says_why(
     tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(editor_session, "level_problems", raising(why))
+    monkeypatch.setattr("ninja_game.editor.examination.level_problems", raising(why))
     monkeypatch.setattr("ninja_game.search.solve.solve", raising(why))
     monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     maker = Maker(tmp_path)

@@ -91,7 +91,7 @@ def always_alike() -> list[object]:
     return [
         instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE),
         patch("ninja_game.runtime.run_in_background", lambda work, _: work()),
-        patch("ninja_game.editor.examination.SPACING", 0.0),
+        patch("ninja_game.editor.examination.EXAMINATION_SPACING", 0.0),
     ]  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.examination import Question
+from ninja_game.editor.examination import LevelQuestion
 from ninja_game.editor.files import new_source
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.play.editor.screen import EditorScreen
@@ -25,7 +25,7 @@ ROOM = with_stamp(
 
 def examine(editor: EditorScreen) -> None:
     """Have the level's problems found now."""
-    editor.session.examination.job.ask(Question(editor.session.draft.level, (), editor.session.draft.says, b""))
+    editor.session.examination.job.ask(LevelQuestion(editor.session.draft.level, (), editor.session.draft.says, b""))
     editor.session.examination.job.finish()
 
 

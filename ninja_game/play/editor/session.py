@@ -10,7 +10,7 @@ from time import monotonic
 
 from ninja_game.editor import files
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.examination import Examination, Question
+from ninja_game.editor.examination import Examination, LevelQuestion
 from ninja_game.editor.playtests import Playtest, Playtests
 from ninja_game.editor.solver import Certification, Certifier, search_of
 from ninja_game.editor.tools import EditorTools
@@ -154,7 +154,7 @@ class EditorSession:
         level, certifier = self.draft.level, self.certifier
         obstacles = () if certifier.is_stale(level) else certifier.certification.obstacles
         if not self.tools.is_dragging:
-            question = Question(level, obstacles, self.draft.says, self.certifying_inputs)
+            question = LevelQuestion(level, obstacles, self.draft.says, self.certifying_inputs)
             self.examination.follow(question, at_once=at_once)
 
     def _search_again(self) -> None:
