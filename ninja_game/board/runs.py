@@ -46,7 +46,7 @@ REJECTED_KINDS = {
 OWN = "own"  # a level of an episode that its player has sent before
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Judged:
     """The result of a recording, as plain values that can be cached; where nothing is said, as of Verdict."""
 
@@ -205,11 +205,11 @@ class Run(Judged):
         """The ninja after each tick: float64 (ticks, 2), px."""
         return run_level(self.entry.named.level, self.inputs).positions
 
-    def rejected(self, kind: str, why: str, first: RunKey | None = None) -> Rejected:
+    def rejected(self, kind: str, why: str, first: RunKey | None = None) -> RejectedRun:
         """The run as one that does not count."""
-        return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
+        return RejectedRun(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
 
-    def decided_by(self, decision: Decision | None) -> Run | Rejected:
+    def decided_by(self, decision: Decision | None) -> Run | RejectedRun:
         """The run after a decision on it, if there is one."""
         if decision is None:
             return self
@@ -234,7 +234,7 @@ class Run(Judged):
 
 
 @dataclass(frozen=True)
-class Rejected:
+class RejectedRun:
     """A run, or a file, that does not count."""
 
     file: str
@@ -253,7 +253,7 @@ class ValidatedRuns:
     """All runs of a folder."""
 
     runs: tuple[Run, ...]  #: runs that count, in the order in which they were added
-    rejected: tuple[Rejected, ...]  #: by file
-    again: tuple[Rejected, ...] = ()  #: levels of episodes that repeat an earlier run by the same player, of kind OWN
+    rejected: tuple[RejectedRun, ...]  #: by file
+    again: tuple[RejectedRun, ...] = ()  #: of kind OWN: episode levels with an earlier run by the player
     alike: Mapping[str, str] = field(default_factory=dict)  #: by player the earlier one with a similar name
     episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)  #: by key, a run for each of the levels

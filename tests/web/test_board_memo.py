@@ -242,7 +242,7 @@ def test_what_comes_with_the_runs_is_not_remembered(
     put(runs, "ann.txt", slow_walk(author="Ann"))
     board(runs, levels)
     (known,) = board_cache.glob("runs-*.json")
-    forged = known.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
+    forged = known.read_text("utf-8").replace(f": {3600 + 80 - WALK_END - 5}", ": 99999")
     assert forged != known.read_text("utf-8")
     shutil.rmtree(board_cache)
     simulated.clear()
@@ -280,8 +280,9 @@ def test_a_broken_memo_is_an_empty_one(text: str, tmp_path: Path) -> None:
     assert Memo(path).recall("key") == [1]
 
 
-BROKEN = [7, "x", None, [], [7], [[]], [[0, ""]], [[0, "odd", "why"]], [[0, "", "", "Ann", 5]], [[0, "refused", []]],
-          [[0, "odd", "why", "Ann", DIGEST]]]  # fmt: skip
+BROKEN = [7, "x", None, {}, [], [7], [{}], [{"record": 0, "kind": ""}], [{"record": 0, "kind": "odd", "level": DIGEST}],
+          [{"record": 0, "kind": "refused", "why": []}], [{"record": 0, "kind": "refused", "odd": 1}]]  # fmt: skip
+"""Entries of a memo; or, as a list, the rows of an entry that is whole else."""
 
 
 @pytest.mark.parametrize("broken", BROKEN)
@@ -295,7 +296,10 @@ def test_a_broken_row_of_a_memo_is_none(
     other = put(tmp_path, "other.txt", "of somebody")
     for path in board_cache.iterdir():
         names = {"../other.txt": broken, "": broken, "\0": broken, "/": broken, "board/../../other.txt": broken}
-        path.write_text(json.dumps(dict.fromkeys(json.loads(path.read_text("utf-8")), broken) | names), "utf-8")
+        entries = json.loads(path.read_text("utf-8"))
+        for name, entry in entries.items():
+            entries[name] = entry | {"rows": broken} if isinstance(entry, dict) and isinstance(broken, list) else broken
+        path.write_text(json.dumps(entries | names), "utf-8")
     simulated.clear()
     assert board(runs, levels, "--site", str(site)) == printed
     assert simulated == ["ann.txt", "bea.txt"]
