@@ -58,8 +58,8 @@ class Playthrough:
     next_label = "next level"
     lead, deaths = b"", 0
 
-    def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
-        self.data = data
+    def __init__(self, player: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
+        self.player = player
         self.entry = entry
         self.body: Body = body
         self.practice_mode = practice_mode
@@ -87,7 +87,7 @@ class Playthrough:
 
     def beginning(self) -> tuple[Level, bytes]:
         """The level at its start, and the inputs of its author's run, if there is one: both decide where texts lie."""
-        run = self.data.catalogue.author_run(self.entry)
+        run = self.player.catalogue.author_run(self.entry)
         return self.level, run.inputs if run else b""
 
     @property
@@ -97,38 +97,38 @@ class Playthrough:
 
     def next_par(self) -> str:
         """The next medal and its time, in words; "" before the first pass, after the last medal, in practice."""
-        mark = self.data.marks.of(self.entry.digest)
+        mark = self.player.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
     @property
     def show_tutorial(self) -> bool:
         """Whether the keys are explained at its start: to a player without any pass."""
-        return not self.data.statistics.played().passes
+        return not self.player.statistics.played().passes
 
     def ghosts(self) -> list[PacedRun]:
         """Runs to race against; read again only when they change, since every retry asks."""
-        best = self.data.records.level_best(self.entry.digest, self.body)
+        best = self.player.records.level_best(self.entry.digest, self.body)
         medal = self._raced_medal()
         state = self.entry.digest, best.id if best else -1, medal
         if state != self._ghosts[0]:
-            author = self.data.catalogue.author_run(self.entry) if medal else None
+            author = self.player.catalogue.author_run(self.entry) if medal else None
             if author and self.pars:
                 # The certificate, slowed down so that it just wins the medal.
                 runs = [PacedRun(author.inputs, author.final_tick / self.pars.par(medal))]
             else:
-                replay = self.data.records.replay(best.id) if best else None
+                replay = self.player.records.replay(best.id) if best else None
                 runs = [PacedRun(replay.inputs)] if replay else []
             self._ghosts = state, runs
         return self._ghosts[1]
 
     def _raced_medal(self) -> str:
         """The medal whose pace a ghost has; "" for the player's best."""
-        medal_ghost, pars = self.data.settings.ghost, self.pars
+        medal_ghost, pars = self.player.settings.ghost, self.pars
         if medal_ghost == "best" or pars is None:
             return ""
         if medal_ghost != "next":
             return medal_ghost
-        mark = self.data.marks.of(self.entry.digest)
+        mark = self.player.marks.of(self.entry.digest)
         return pars.next_medal(mark.fastest) if mark else "silver"
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -138,8 +138,8 @@ class Playthrough:
     @property
     def shows_messages(self) -> bool:
         """Whether the level shows its messages: not after a pass, nor if the player does not want them."""
-        marks, level = self.data.marks, self.entry.digest
-        return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
+        marks, level = self.player.marks, self.entry.digest
+        return self.player.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def messages(self) -> tuple[LevelMessage, ...]:
         if not self.shows_messages:
@@ -150,13 +150,13 @@ class Playthrough:
 
     def died(self, attempt: Attempt) -> None:
         """Called once per death: counts it."""
-        save_work(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
+        save_work(self.player, count_of(self.player, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or restarted, ended or not: counts one that has not."""
         if attempt.outcome == "running" and attempt.simulation.tick:
             # A restart must not wait for the disk.
-            self.data.store.defer(count_of(self.data, self.entry, attempt))
+            self.player.store.defer(count_of(self.player, self.entry, attempt))
 
     def restart(self) -> bool:
         """Called when the level restarts; whether it is another one, since its file has changed.
@@ -184,14 +184,14 @@ class LevelPlaythrough(Playthrough):
 
     def __init__(
         self,
-        data: PlayerData,
+        player: PlayerData,
         entry: Entry,
         *,
         body: Body = "circle",
         practice_mode: bool = False,
         following: Sequence[Entry] = (),
     ) -> None:
-        super().__init__(data, entry, body=body, practice_mode=practice_mode)
+        super().__init__(player, entry, body=body, practice_mode=practice_mode)
         self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
         self._stamp = file_stamp(Path(entry.named.file))
@@ -215,7 +215,7 @@ class LevelPlaythrough(Playthrough):
         return bool(self._ahead())
 
     def _ahead(self) -> list[Entry]:
-        return [entry for entry in self._following if not self.data.lock_of(entry)]
+        return [entry for entry in self._following if not self.player.lock_of(entry)]
 
     def advance(self) -> Navigation:
         """The next level of the list that can be played."""
@@ -230,31 +230,31 @@ class LevelPlaythrough(Playthrough):
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save the results of a passed attempt; notices about them."""
-        count = count_of(self.data, self.entry, attempt, passed=True)
+        count = count_of(self.player, self.entry, attempt, passed=True)
         entry = self.entry
-        replay = None if attempt.assisted else replay_of(self.data, entry, attempt)
+        replay = None if attempt.assisted else replay_of(self.player, entry, attempt)
 
         def work() -> list[str]:
             count()
-            notices = save_best(self.data, entry, replay) if replay else []
+            notices = save_best(self.player, entry, replay) if replay else []
             if not self.practice_mode:
                 self._open_following(entry)
             return notices
 
-        return save_work(self.data, work)
+        return save_work(self.player, work)
 
     def _open_following(self, entry: Entry) -> None:
         """If the episode is at this level, move on to the next level that is not passed."""
-        data, episode = self.data, self.data.catalogue.episode_of(entry)
-        if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
+        player, episode = self.player, self.player.catalogue.episode_of(entry)
+        if episode is None or entry.position is None or player.episode_state(episode) != UNLOCKED:
             return
-        if data.beaten_in(episode) != entry.position:
+        if player.beaten_in(episode) != entry.position:
             return
         position = entry.position[1]
         while True:
-            note_progress(data, episode, position, kept=load_unfinished(data.store)[0] in {"", episode.key})
+            note_progress(player, episode, position, kept=load_unfinished(player.store)[0] in {"", episode.key})
             position += 1
-            if position == len(episode.levels) or not data.marks.is_passed(episode.levels[position].digest):
+            if position == len(episode.levels) or not player.marks.is_passed(episode.levels[position].digest):
                 return
 
 
@@ -262,9 +262,9 @@ class FilePlaythrough(LevelPlaythrough):
     """The levels of a file, one after the other; after the last one the first again."""
 
     def __init__(
-        self, data: PlayerData, levels: Sequence[NamedLevel], *, body: Body = "circle", practice_mode: bool = False
+        self, player: PlayerData, levels: Sequence[NamedLevel], *, body: Body = "circle", practice_mode: bool = False
     ) -> None:
-        super().__init__(data, Entry(levels[0], YOURS), body=body, practice_mode=practice_mode)
+        super().__init__(player, Entry(levels[0], YOURS), body=body, practice_mode=practice_mode)
         self._levels = levels
 
     @property
@@ -286,11 +286,11 @@ class EpisodePlaythrough(Playthrough):
     assistance, so that the score of the episode counts.
     """
 
-    def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
-        super().__init__(data, episode.levels[0], practice_mode=practice_mode)
+    def __init__(self, player: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
+        super().__init__(player, episode.levels[0], practice_mode=practice_mode)
         self.episode = episode
         self.position = 0
-        self.legitimate = not practice_mode and data.episode_state(episode) == UNLOCKED
+        self.legitimate = not practice_mode and player.episode_state(episode) == UNLOCKED
         self.score = 0
         self.whole = True
         self.replays: list[Replay] = []
@@ -306,7 +306,7 @@ class EpisodePlaythrough(Playthrough):
 
     def skip_to_furthest(self) -> None:
         """Go to the farthest level that was reached by skipping, if it is in this episode."""
-        beaten = self.data.beaten_in(self.episode)
+        beaten = self.player.beaten_in(self.episode)
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
             self.entry = self.episode.levels[self.position]
@@ -333,14 +333,14 @@ class EpisodePlaythrough(Playthrough):
         self.score = attempt.lifetime
         self._passed = attempt
         if counts:
-            self.replays = [*self.replays[: self.position], replay_of(self.data, self.entry, attempt)]
-        count = count_of(self.data, self.entry, attempt, passed=True)
+            self.replays = [*self.replays[: self.position], replay_of(self.player, self.entry, attempt)]
+        count = count_of(self.player, self.entry, attempt, passed=True)
         replays = tuple(self.replays) if counts else ()
         # A copy of the present state: the work may be done later, when the run has gone on.
         work = partial(
             self._save, count, self.position, self.score, replays, legitimate=self.legitimate, whole=self.whole
         )
-        self.notices = save_work(self.data, work)
+        self.notices = save_work(self.player, work)
         return self.notices
 
     def _save(
@@ -348,16 +348,16 @@ class EpisodePlaythrough(Playthrough):
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
-        note_progress(self.data, self.episode, position, replays if whole else (), legitimate=legitimate)
+        note_progress(self.player, self.episode, position, replays if whole else (), legitimate=legitimate)
         if not replays:
             return []
-        notices = save_best(self.data, self.episode.levels[position], replays[-1])
+        notices = save_best(self.player, self.episode.levels[position], replays[-1])
         if position == levels - 1:
-            before = self.data.records.episode_best(self.episode.key)
-            if whole and self.data.records.episode_passed(self.episode.key, score, replays) and before:
+            before = self.player.records.episode_best(self.episode.key)
+            if whole and self.player.records.episode_passed(self.episode.key, score, replays) and before:
                 notices.append(EPISODE_BEST)
             if not self.episode.pack:
-                notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
+                notices += new_unlocks(self.player.store, self.player.columns_complete, self.player.columns_present)
         return notices
 
     def restart(self) -> bool:
@@ -388,14 +388,14 @@ class EpisodePlaythrough(Playthrough):
         position, legitimate = self.position, self.legitimate
 
         def work() -> list[str]:
-            note_progress(self.data, self.episode, position, legitimate=legitimate)
+            note_progress(self.player, self.episode, position, legitimate=legitimate)
             return []
 
-        self.notices = save_work(self.data, work)
+        self.notices = save_work(self.player, work)
 
 
 def note_progress(
-    data: PlayerData,
+    player: PlayerData,
     episode: Episode,
     position: int,
     replays: Sequence[Replay] = (),
@@ -407,50 +407,50 @@ def note_progress(
 
     ``replays``: those of the episode up to it, if no level was skipped. Raises sqlite3.Error.
     """
-    following = data.catalogue.following(episode)
+    following = player.catalogue.following(episode)
     levels = len(episode.levels)
-    progress, goal = data.progress_in(episode.pack), following.number if following else None
+    progress, goal = player.progress_in(episode.pack), following.number if following else None
     progress.level_passed((episode.number, position), levels=levels, following=goal, legitimate=legitimate)
     if legitimate and kept and position < levels - 1:
-        save_unfinished(data.store, episode.key, replays)
+        save_unfinished(player.store, episode.key, replays)
     elif legitimate and kept:
-        save_unfinished(data.store, following.key if following else "")
+        save_unfinished(player.store, following.key if following else "")
 
 
-def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
+def next_run(player: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
     """The playthrough to continue: after the level played last, or else the first episode that has not been passed.
 
     None without episodes.
     """
-    if not practice_mode and (run := unfinished_run(data)):
+    if not practice_mode and (run := unfinished_run(player)):
         return run
-    episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
-    ahead = [episode for episode in episodes if not data.progress.is_beaten(episode.number)]
-    opened = [episode for episode in ahead if data.episode_state(episode) != LOCKED]
+    episodes = [player.catalogue.episodes[number] for number in sorted(player.catalogue.episodes)]
+    ahead = [episode for episode in episodes if not player.progress.is_beaten(episode.number)]
+    opened = [episode for episode in ahead if player.episode_state(episode) != LOCKED]
     chosen = next(iter(opened or ahead or episodes), None)
     if chosen is None:
         return None
-    run = EpisodePlaythrough(data, chosen, practice_mode=practice_mode)
+    run = EpisodePlaythrough(player, chosen, practice_mode=practice_mode)
     run.skip_to_furthest()
     return run
 
 
-def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodePlaythrough | None:
+def unfinished_run(player: PlayerData, chosen: Episode | None = None) -> EpisodePlaythrough | None:
     """The unfinished run of an episode, or of the one played last; None if it has not been begun or is over."""
-    key, replays = load_unfinished(data.store)
+    key, replays = load_unfinished(player.store)
     if chosen is None:
-        episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
+        episodes = (episode for pack in player.catalogue.packs() for episode in pack.episodes.values())
         chosen = next((episode for episode in episodes if key and episode.key == key), None)
     elif chosen.key != key:
         replays = []
     if chosen is None or len(replays) >= len(chosen.levels):
         return None
-    run = EpisodePlaythrough(data, chosen)
+    run = EpisodePlaythrough(player, chosen)
     if replays:
         run.resume(replays)
     else:
         run.skip_to_furthest()
-    return run if run.position or not data.progress_in(chosen.pack).is_beaten(chosen.number) else None
+    return run if run.position or not player.progress_in(chosen.pack).is_beaten(chosen.number) else None
 
 
 _PLACE = "episode left half-way"

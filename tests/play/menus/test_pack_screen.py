@@ -1353,8 +1353,8 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(driver: MenuDriv
     assert grid._look_of(1) == "locked"
     driver.choose("Play")
     run = driver.shown(LevelScreen).playthrough
-    assert run.data is grid.player is not driver.player
-    assert save_work(run.data, lambda: ["New best"]) == ["New best", "Not saved yet: this is a preview"]
+    assert run.player is grid.player is not driver.player
+    assert save_work(run.player, lambda: ["New best"]) == ["New best", "Not saved yet: this is a preview"]
     driver.shown(LevelScreen).attempt.tick(0)
     driver.shown(LevelScreen).keep_replay()
     assert driver.app.notice == "Not saved yet: this is a preview"
