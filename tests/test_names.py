@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -135,6 +135,27 @@ def test_no_two_public_functions_have_one_name() -> None:
 def is_command(node: ast.FunctionDef) -> bool:
     """Whether it is a command of click, named as users type it."""
     return any("command(" in ast.unparse(decorator) for decorator in node.decorator_list)
+
+
+ONE_WORD = {
+    "demonstration": "learn's public function and what it makes",
+    **dict.fromkeys(
+        ("_answer", "_arranging", "_missing", "_row", "heard", "properties", "shown_ticks"), "of the editor"
+    ),
+}
+"""Names of which a module has two that differ only by case, with a good reason."""
+
+
+def test_no_two_names_of_a_module_differ_only_by_case() -> None:
+    pairs = []
+    for file, tree in modules().items():
+        names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+        for node in (node for node in tree.body if isinstance(node, ast.Assign | ast.AnnAssign)):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            names |= {part.id for target in targets for part in ast.walk(target) if isinstance(part, ast.Name)}
+        twice = [name for name, count in Counter(map(str.casefold, names)).items() if count > 1]
+        pairs += [f"{file}: {name}" for name in twice if name not in ONE_WORD]
+    assert not pairs, "say in one of the names what it is of: _ROW_HEIGHT beside _row"
 
 
 PLAIN = {

@@ -242,7 +242,7 @@ def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
     return order[max(medals, default=len(MEDALS))]
 
 
-def tally(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:
+def count_results(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:
     """Count the results over levels. ``helped``: digests of those passed with help."""
     pairs = [(entry, marks.get(entry.digest)) for entry in entries]
     medals = [medal_of(*pair) for pair in pairs]

@@ -77,7 +77,7 @@ def design_findings(counts: Design, file: str = "") -> Iterator[PackFinding]:
             yield pack_finding(code, file, value=value, bound=bound)
 
 
-def design(level: Level, inputs: bytes) -> Design:
+def measure_design(level: Level, inputs: bytes) -> Design:
     """The counts of a level, with a run that passes it (``Recording.playback``).
 
     Raises LevelError for a level that cannot be played.

@@ -20,7 +20,7 @@ from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import level_finding
-from ninja_game.runs.packs import certificate, lint
+from ninja_game.runs.packs import lint, read_pack_certificate
 from ninja_game.runs.problems import level_problems
 from ninja_game.search.certificate import read_certificate
 from ninja_game.search.task import Progress
@@ -195,14 +195,14 @@ def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path:
 
 
 def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tmp_path: Path) -> None:
-    certificate = pack / "certificates" / "00-0-first-steps.exit.replay.txt"
+    read_pack_certificate = pack / "certificates" / "00-0-first-steps.exit.replay.txt"
     other = pack / "certificates" / "00-1-mind-the-gap.exit.replay.txt"
     kept = other.stat().st_mtime_ns
     accept_missing_gold(pack)
-    certificate.unlink()
+    read_pack_certificate.unlink()
     progress_lines: list[str] = []
     ready = prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: progress_lines.append(text))
-    assert certificate.exists()
+    assert read_pack_certificate.exists()
     assert other.stat().st_mtime_ns == kept
     assert "Measuring medal times: 8 of 8 levels" in progress_lines
     # Whether all gold is found in a second depends on the machine.
@@ -286,7 +286,7 @@ def test_messages_that_are_never_shown_are_problems_of_the_pack_as_they_are_in_t
     says = f"after 1 s: {'Long ' * 20}| after 1 s: One | after 2 s: Two | lock: Three | trap: Four"
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(re.sub("(?m)^says: .*", f"says: {says}", text), "utf-8")
-    named, run = Pack(pack).levels[FIRST], certificate(Pack(pack), FIRST, "exit")
+    named, run = Pack(pack).levels[FIRST], read_pack_certificate(Pack(pack), FIRST, "exit")
     assert run
     ours = [finding.odd for finding in lint(Pack(pack)) if finding.file == FIRST and finding.odd]
     theirs = level_problems(named.level, named.says, run.recording.inputs)

@@ -17,7 +17,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import EDGE_WORDS, Doors, EdgeStates, WalkingEnemies
-from ninja_game.play.lab.figure import FIGURE, Figure, Sheet, room_world
+from ninja_game.play.lab.figure import FIGURE_AREA, Figure, Sheet, room_world
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import LAB_INPUTS, PHASES, OneTick
 from ninja_game.play.lab.projection import PUSH_RULE, Bodies, Projection, Response, candidates
@@ -74,7 +74,7 @@ def test_every_figure_has_two_sentences_and_links_to_sections_that_exist(name: s
 def test_a_figure_writes_itself(name: str, tmp_path: Path) -> None:
     export_figure(name, tmp_path / "figure.png")
     with Image.open(tmp_path / "figure.png") as picture:
-        assert list(picture.size) == list(FIGURE[2:])
+        assert list(picture.size) == list(FIGURE_AREA[2:])
         assert len(picture.convert("RGB").getcolors(1 << 24) or []) > 5
     first, *_, last = (pygame.image.tobytes(each, "RGB") for each in figure_pictures(name, ticks=60))
     assert first != last, "its demonstration stands still"
@@ -97,7 +97,7 @@ def test_demonstrations_show_what_they_showed() -> None:
 def test_a_film_of_a_figure(tmp_path: Path) -> None:
     export_figure("pairs", tmp_path / "pairs.gif", scale=0.5)
     with Image.open(tmp_path / "pairs.gif") as film:
-        assert list(film.size) == [FIGURE[2] / 2, FIGURE[3] / 2]
+        assert list(film.size) == [FIGURE_AREA[2] / 2, FIGURE_AREA[3] / 2]
         assert getattr(film, "n_frames", 0) > FILM_TICKS / 4
     with pytest.raises(NinjaGameError, match=r"\.png or \.gif"):
         export_figure("pairs", tmp_path / "pairs.bmp")
@@ -418,7 +418,10 @@ def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
         pygame.event.post(pygame.Event(kind, pos=place, button=1, rel=(0, 0), buttons=(1, 0, 0)))
         driver.frames(1)
     left, top, zoom = screen.figure.view
-    assert (screen.figure.x, screen.figure.y) == (left + (420 - FIGURE[0]) / zoom, top + (220 - FIGURE[1]) / zoom)
+    assert (screen.figure.x, screen.figure.y) == (
+        left + (420 - FIGURE_AREA[0]) / zoom,
+        top + (220 - FIGURE_AREA[1]) / zoom,
+    )
     driver.press("pagedown", "right")
     assert isinstance(screen.figure, Projection)
     assert screen.figure.tile == 3
@@ -435,7 +438,7 @@ def test_the_mouse_presses_and_drags_a_figure_in_its_own_px(
     driver.choose("How it works")
     screen = driver.shown(LabScreen)
     left, top, zoom = screen.figure.view
-    x, y = FIGURE[0] + 30 * zoom, FIGURE[1] + 40 * zoom
+    x, y = FIGURE_AREA[0] + 30 * zoom, FIGURE_AREA[1] + 40 * zoom
     called: list[tuple[str, float, float]] = []
     for name in ("press", "drag"):
         monkeypatch.setattr(screen.figure, name, lambda x, y, name=name: called.append((name, x, y)))
