@@ -135,7 +135,7 @@ class PlayerData:
             return "Skipped, not passed yet"
         run = None if mark else self.own_certificate(entry)
         certified = f"Certified: {seconds_text(run.end_tick)} s" if run else ""
-        return progress.reached(entry, mark) or certified or "Not passed yet"
+        return progress.result_sentence(entry, mark) or certified or "Not passed yet"
 
     def own_certificate(self, entry: Entry) -> Replay | None:
         """The certificate to the exit of a level that the player has made. Lists ask it for every picture."""

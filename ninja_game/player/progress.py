@@ -223,7 +223,7 @@ def next_par(pars: Pars, mark: Mark) -> str:
     return f"{medal.capitalize()} medal: {seconds_text(par)} s, {missing} s to go" if medal else ""
 
 
-def reached(entry: Entry, mark: Mark | None) -> str:
+def result_sentence(entry: Entry, mark: Mark | None) -> str:
     """The player's fastest time in a level and most gold in a pass, as a sentence; "" without a mark."""
     if mark is None:
         return ""

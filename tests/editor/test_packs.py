@@ -195,14 +195,14 @@ def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path:
 
 
 def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tmp_path: Path) -> None:
-    read_pack_certificate = pack / "certificates" / "00-0-first-steps.exit.replay.txt"
+    certificate = pack / "certificates" / "00-0-first-steps.exit.replay.txt"
     other = pack / "certificates" / "00-1-mind-the-gap.exit.replay.txt"
     kept = other.stat().st_mtime_ns
     accept_missing_gold(pack)
-    read_pack_certificate.unlink()
+    certificate.unlink()
     progress_lines: list[str] = []
     ready = prepare_pack(pack, seconds=1.0, jobs=1, say=lambda text, _: progress_lines.append(text))
-    assert read_pack_certificate.exists()
+    assert certificate.exists()
     assert other.stat().st_mtime_ns == kept
     assert "Measuring medal times: 8 of 8 levels" in progress_lines
     # Whether all gold is found in a second depends on the machine.

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.board import collect, copies, judge, memo, runs as board_runs
-from ninja_game.board.collect import RunFolder, Sent, SentFile
+from ninja_game.board.collect import RunFolder, Submission, SubmittedFile
 from ninja_game.board.memo import Memo
 from ninja_game.cli.main import cli
 from ninja_game.files.tree import Tree
@@ -93,7 +93,7 @@ def test_a_file_that_lies_there_as_before_is_not_read(
     read: list[str] = []
     file = RunFolder.file
 
-    def noting(self: RunFolder, name: str) -> SentFile:
+    def noting(self: RunFolder, name: str) -> SubmittedFile:
         read.append(name)
         return file(self, name)
 
@@ -201,7 +201,7 @@ def test_a_file_with_many_records_is_read_once_for_all_their_pages(
     board(runs, levels)
     parsed, recordings = list[str](), RunFolder.recordings
 
-    def noting(self: RunFolder, file: SentFile) -> list[Sent]:
+    def noting(self: RunFolder, file: SubmittedFile) -> list[Submission]:
         parsed.append(file.name)
         return recordings(self, file)
 

@@ -224,9 +224,9 @@ def runs(pack: Pack, file: str) -> dict[str, float]:
     """The times of a level's certificates, s."""
     found = {}
     for kind, name in (("exit", "exit_s"), ("gold", "gold_s")):
-        read_pack_certificate = pack.certificate(file, kind)
-        if read_pack_certificate:
-            (recording,) = load_replays(pack.files.path / read_pack_certificate)
+        certificate = pack.certificate(file, kind)
+        if certificate:
+            (recording,) = load_replays(pack.files.path / certificate)
             found[name] = (recording.ticks - 1) / TICKS_PER_SECOND
     return found
 

@@ -153,14 +153,14 @@ class LooseGrid(Figure):
     def tick(self) -> None:
         self.works = self.crowd.move()
 
-    def asked(self) -> tuple[set[int], set[int]]:
+    def cells_tested(self) -> tuple[set[int], set[int]]:
         """The cells that a body at the handle tests: in the loose grid, in the normal one."""
         probe = Object()
         probe.x, probe.y = self.x, self.y
         return {self.cell + offset for offset in NINE_CELLS}, set(self.crowd.cells_of(probe))
 
     def numbers(self) -> list[tuple[str, str]]:
-        (loose, normal), (nine, four) = self.works, self.asked()
+        (loose, normal), (nine, four) = self.works, self.cells_tested()
         in_nine = sum(o.cell in nine for o in self.crowd.objects)
         in_four = sum(bool(self.crowd.cells_of(o) & four) for o in self.crowd.objects)
         return [
@@ -173,7 +173,7 @@ class LooseGrid(Figure):
 
     def draw(self, sheet: Sheet) -> None:
         palette = sheet.palette
-        nine, four = self.asked()
+        nine, four = self.cells_tested()
         for cell in nine:
             sheet.shade(cell, palette.switch, 60)
         for cell in four:

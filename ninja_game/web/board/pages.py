@@ -17,7 +17,7 @@ from ninja_game.board.categories import HIGHEST
 from ninja_game.board.collect import is_in
 from ninja_game.board.memo import Memo
 from ninja_game.board.ranking import Ranked, Ranking, Record, Standing
-from ninja_game.board.report import counts, unnamed
+from ninja_game.board.report import counts, unnamed_hint
 from ninja_game.board.runs import REJECTED_KINDS, Run, RunKey
 from ninja_game.errors import FileError
 from ninja_game.files.reading import SUFFIXES
@@ -310,7 +310,7 @@ class BoardPages:
             leads: list[Content] = [
                 tag("a", self._players_of(other), href=f"{pages[other]}.html") for other in pages if other != ladder
             ]
-            leads += filter(None, [unnamed(self.ranking.judged)])
+            leads += filter(None, [unnamed_hint(self.ranking.judged)])
             title, rows = self._players_of(ladder), [*map(self._standing, standings)]
             parts.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", lead) for lead in leads))
             for standing in standings:

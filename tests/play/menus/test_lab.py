@@ -281,17 +281,17 @@ def test_nine_cells_tell_those_and_leave_the_world_alone() -> None:
     figure = NineCells()
     digest = world_digest(figure.world)
     for tick in demonstrated(figure, 60):
-        asked, events = figure.objects_asked()
+        tested, events = figure.objects_tested()
         centre = cell_at(figure.x, figure.y)
         near = {centre + dx + STRIDE * dy for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
         objects = figure.world.objects[1 : figure.world.slots_used]
         reached = {o.slot for o in objects if o.in_grid and o.cell in near}
         # Gold that is taken ends the walk of its list: the quirk is the world's, and so the figure's.
         if tick > 40:
-            assert set(asked) < reached
+            assert set(tested) < reached
             assert events == ["gold-taken", "gold-taken"]
         else:
-            assert set(asked) == reached
+            assert set(tested) == reached
     assert world_digest(figure.world) == digest
     gold, mine = figure.world.objects[1:3]
     figure.drag(gold.x, gold.y)
@@ -330,7 +330,7 @@ def test_bullets_hit_the_same_filed_or_not() -> None:
 def test_rays_visit_the_cells_between_and_name_what_a_loose_grid_misses() -> None:
     figure, missed_ever = RayCast(), 0
     for _ in demonstrated(figure, 240):
-        asked, stopped, end = figure.asked()
+        tested, stopped, end = figure.shapes_tested()
         reach = end if stopped else (figure.x, figure.y)
         start = figure.from_x, figure.from_y
         along = [
@@ -338,7 +338,7 @@ def test_rays_visit_the_cells_between_and_name_what_a_loose_grid_misses() -> Non
             for k in range(4000)
         ]
         assert set(along) <= set(figure.visited)
-        assert set(asked) <= set(figure.visited)
+        assert set(tested) <= set(figure.visited)
         seen = sees(figure.tiles, figure.world, *start, figure.x, figure.y)[0]
         assert numbers(figure)["sees the ninja"] == ("yes" if seen else "no")
         _, missed = figure.met()

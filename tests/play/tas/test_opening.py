@@ -89,7 +89,7 @@ def test_what_cannot_be_opened_is_reported_where_one_came_from(
 
 
 def test_what_was_prepared_is_there_at_once(at: MenuDriver) -> None:
-    opening.prepare(load_replays(RUN)[0])
+    opening.prepare_rules(load_replays(RUN)[0])
     assert is_prepared()
     if compiled_available():
         open_tas_editor(at.app, load_replays(RUN)[0], [], 3)
