@@ -12,7 +12,7 @@ import numpy as np
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices
-from ninja_game.learn.observations.part import Array, PartContext, Table, clamp
+from ninja_game.learn.observations.part import Array, Lookup, PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, open_bits, point_at
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
@@ -101,7 +101,7 @@ def point_within(x: float, y: float) -> int:
 @kernel
 def measure_distance(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    bounds: Table, switches: Table, states: Array, stale: Array, fields: Array, rows: Array, ticks: Array,
+    bounds: Lookup, switches: Lookup, states: Array, stale: Array, fields: Array, rows: Array, ticks: Array,
 ) -> None:  # fmt: skip
     """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state has changed."""
     for k in range(first, last):

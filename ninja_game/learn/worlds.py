@@ -58,10 +58,10 @@ class StepSettings(NamedTuple):
     frame_skip: int  #: ticks of a step
     time_limit: int  #: ticks of an episode
     repeat: int  #: of CHANCES: that a world repeats the keys of the previous step
-    exit_reward: float
-    death_reward: float
-    gold_reward: float
-    tick_reward: float
+    exit_reward: float  #: for reaching the exit
+    death_reward: float  #: for dying, 0 or less
+    gold_reward: float  #: for each piece
+    tick_reward: float  #: for each tick, 0 or less
 
 
 @kernel

@@ -11,7 +11,7 @@ from gymnasium.spaces import Box
 
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, Part, PartContext, Table, clamp, put_value
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, put_value
 from ninja_game.learn.observations.surroundings import SAMPLES, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -167,8 +167,8 @@ class NearObjects(Part):
 @kernel
 def observe_objects(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, count: int, ranges: Table, bounds: Table, objects: Table, nearest: Table,
-    distances: Table,
+    out: Array, offset: int, count: int, ranges: Lookup, bounds: Lookup, objects: Lookup, nearest: Lookup,
+    distances: Lookup,
 ) -> None:  # fmt: skip
     """Sort the nearest objects of some worlds by insertion, and write them."""
     for k in range(first, last):
@@ -257,7 +257,7 @@ class LevelPlanes(Part):
 @kernel
 def observe_planes(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, solid: Table, bounds: Table, objects: Table, highest: Table, closed: Table,
+    out: Array, offset: int, solid: Lookup, bounds: Lookup, objects: Lookup, highest: Lookup, closed: Lookup,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]

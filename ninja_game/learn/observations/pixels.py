@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, is_there
-from ninja_game.learn.observations.part import Array, Part, PartContext, Table, clamp, copy_values
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, copy_values
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
@@ -281,7 +281,7 @@ def solid_points(
 @kernel
 def observe_pixels(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, tiles: Table, view: PixelView, layers: Layers, bounds: Table, things: Table,
+    out: Array, offset: int, tiles: Lookup, view: PixelView, layers: Layers, bounds: Lookup, things: Lookup,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 

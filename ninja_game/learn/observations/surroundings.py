@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, Part, PartContext, Table, clamp, copy_values
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, copy_values
 from ninja_game.sim.collision.ray_shapes import ray_tile
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, FULL, SHAPE
@@ -156,7 +156,7 @@ class LocalTiles(Part):
 @kernel
 def observe_distances(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, pictures: Table, width: int, height: int, size: int,
+    out: Array, offset: int, pictures: Lookup, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]
@@ -170,7 +170,7 @@ def observe_distances(
 @kernel
 def observe_tiles(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, pictures: Table, width: int, height: int, size: int,
+    out: Array, offset: int, pictures: Lookup, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
     """Write the tile of each cell around the ninja."""
     for k in range(first, last):
@@ -257,8 +257,8 @@ def mark_edges(fresh: Any, number: int, states: Any) -> None:
 @kernel
 def observe_rays(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, dx: Table, dy: Table, pace_x: Table, pace_y: Table, reach: float, factor: float,
-    edges: Table,
+    out: Array, offset: int, dx: Lookup, dy: Lookup, pace_x: Lookup, pace_y: Lookup, reach: float, factor: float,
+    edges: Lookup,
 ) -> None:  # fmt: skip
     """Follow the rays of some worlds like ``cast_ray``, bit for bit, with fewer look-ups per line of the grid."""
     for k in range(first, last):

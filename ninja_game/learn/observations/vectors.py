@@ -11,7 +11,7 @@ from gymnasium.spaces import Box
 
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import Array, Part, PartContext, Table, clamp, put_value
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, put_value
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
@@ -116,8 +116,8 @@ class StateVector(Part):
 @kernel
 def observe_state(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, ranges: Table, exit_bounds: Table, exits: Table, gold_bounds: Table, gold: Table,
-    changed: Table, opened: Table, nearest: Table,
+    out: Array, offset: int, ranges: Lookup, exit_bounds: Lookup, exits: Lookup, gold_bounds: Lookup, gold: Lookup,
+    changed: Lookup, opened: Lookup, nearest: Lookup,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]
@@ -294,7 +294,7 @@ class Guide(Part):
 @kernel
 def observe_guide(
     maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
-    out: Array, offset: int, dx: Table, dy: Table, share: Table, fields: Array, rows: Array, factor: float,
+    out: Array, offset: int, dx: Lookup, dy: Lookup, share: Lookup, fields: Array, rows: Array, factor: float,
     highest: float,
 ) -> None:  # fmt: skip
     """Read the fields of some worlds; worlds without their field yet are observed again later."""
