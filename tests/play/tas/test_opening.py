@@ -31,7 +31,7 @@ def at(tmp_path: Path) -> Iterator[MenuDriver]:
 def loaded(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
     """The rules are there once this is set."""
     event = Event()
-    monkeypatch.setattr(opening, "prepare", lambda _: event.wait(60))
+    monkeypatch.setattr(opening, "prepare_rules", lambda _: event.wait(60))
     monkeypatch.setattr(opening, "is_prepared", lambda: False)
     yield event
     event.set()
