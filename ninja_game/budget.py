@@ -31,7 +31,7 @@ command's help needs no Gymnasium."""
 
 NO_LIMIT = 2**63  # the budget of what the player played here
 
-TICK_COST = 10  # Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled.
+NINJA_COST = 10  # Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled.
 
 _COSTS = {kind.number: kind.cost for kind in KINDS}
 
@@ -39,7 +39,7 @@ _COSTS = {kind.number: kind.cost for kind in KINDS}
 def tick_cost(level: Level) -> int:
     """The most work that a tick of a level can be. Raises LevelError as ``check_level`` does."""
     try:
-        return TICK_COST + sum(_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
+        return NINJA_COST + sum(_COSTS.get(spec.kind, 1) for spec in level.objects if makes_object(spec))
     except (AttributeError, TypeError):
         check_level(level)  # here, since it takes ten times as long as the sum
         raise

@@ -6,7 +6,7 @@ import ast
 import re
 import subprocess
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
@@ -27,6 +27,9 @@ REASONS = {
     "main": "what a program begins with",
 }
 """Names that two modules share with a good reason; a command may have the name of what does its work."""
+
+LIKE = {"demonstration"}
+"""A public function and the type of what it makes."""
 
 HIDDEN_PARAMETERS = {"record", "site"}
 """Options of commands beside a command of that name: click passes them by their names."""
@@ -84,6 +87,17 @@ def two_meanings(sources: Sources) -> Iterator[str]:
             yield f"{where}: {kind} {name}: say in the name what it is of; with _ if only its module uses it"
     for name in REASONS.keys() - {name for _, name in shared}:
         yield f"tools/lint.py: {name} means one thing now: strike it out"
+
+
+def like_names(sources: Sources) -> Iterator[str]:
+    """Names of a module that differ only by case; imports are not looked at."""
+    for file, text in sources.items():
+        body = parsed(text).body
+        targets = [target for node in body for target in getattr(node, "targets", [getattr(node, "target", None)])]
+        own = {part.id for target in targets if target for part in ast.walk(target) if isinstance(part, ast.Name)}
+        own |= {node.name for node in body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+        for name in (name for name, count in Counter(map(str.casefold, own)).items() if count > 1 and name not in LIKE):
+            yield f"{file}: {name}: two names differ only by case; say in one what it is of: _ROW_HEIGHT beside _row"
 
 
 def own_names(body: list[ast.stmt]) -> Iterator[str]:
@@ -206,7 +220,13 @@ def main() -> int:
     everything = {path.relative_to(ROOT).as_posix(): path.read_text("utf-8") for path in paths}
     package = {file: text for file, text in everything.items() if file.startswith("ninja_game/")}
     named = {file: text for file, text in package.items() if not re.match(PAGE, file)}
-    faults = [*two_meanings(named), *hiding_names(named), *silent_fields(named), *hidden_decisions(package)]
+    faults = [
+        *two_meanings(named),
+        *like_names(named),
+        *hiding_names(named),
+        *silent_fields(named),
+        *hidden_decisions(package),
+    ]
     faults += [*forbidden_imports(everything), *circles(), *idle_skips(everything)]
     sys.stdout.writelines(f"{fault}\n" for fault in faults)
     return int(bool(faults))

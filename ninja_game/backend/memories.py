@@ -55,7 +55,7 @@ PLAIN, CHECKED, CHECKED_LATER = Plan("plain", "plain"), Plan("compiled", "compil
 
 
 @dataclass
-class _Process:
+class _ProcessState:
     """The state of this process, which chooses the memory of its runs."""
 
     kernels: dict[tuple[Callable[..., Any], bool], Any] = field(default_factory=dict)  #: by kernel and ``checked``
@@ -63,7 +63,7 @@ class _Process:
     short_work: int = 0  #: work of the runs so far that were short enough for the plain memory; at most PLAIN_WORK
 
 
-_PROCESS = _Process()
+_PROCESS = _ProcessState()
 
 _RUN_KERNELS = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),

@@ -41,7 +41,7 @@ def is_in(path: Path, folder: Path) -> bool:
 
 
 @dataclass(frozen=True)
-class SentFile:
+class SubmittedFile:
     """A file by its path in the folder: its content, or the reason for its refusal."""
 
     name: str
@@ -55,7 +55,7 @@ class SentFile:
 
 
 @dataclass(frozen=True)
-class Sent:
+class Submission:
     """A recording as a chunk with one result. ``replay``: the parsed replay, if it is in our format.
 
     ``claimed``: the final tick that the replay claims, if inputs follow it; else -1. All inputs are run in both cases.
@@ -84,7 +84,7 @@ class RunFolder:
     def __init__(self, folder: Path, levels: Mapping[str, Level]) -> None:
         self.folder = folder
         self.levels = levels
-        self._last: tuple[str, list[Sent]] = "", []
+        self._last: tuple[str, list[Submission]] = "", []
         self.known: dict[tuple[str, int], bytes] = {}
         """Inputs of recently judged runs, by file and record."""
 
@@ -99,26 +99,26 @@ class RunFolder:
             path, why = (file.path, file.why) if isinstance(file, Skipped) else (file, "")
             yield "/".join(path.parts[above:]), why
 
-    def file(self, name: str) -> SentFile:
+    def file(self, name: str) -> SubmittedFile:
         """Read a file by its path in the folder."""
         path = self.folder / name
         try:
-            return SentFile(name, read_bytes(path, _MAX_BYTES))
+            return SubmittedFile(name, read_bytes(path, _MAX_BYTES))
         except NinjaGameError as error:
-            return SentFile(name, problem=str(error).removeprefix(f"{path}: "))
+            return SubmittedFile(name, problem=str(error).removeprefix(f"{path}: "))
         except OSError as error:
-            return SentFile(name, problem=reason(error))
+            return SubmittedFile(name, problem=reason(error))
 
     def stamp(self, name: str) -> list[int]:
         """``file_stamp`` of a file; [] for one so new that a further change might not show."""
         now = file_stamp(f"{self.folder}/{name}")
         return now if now and time.time_ns() - max(now[1:3]) > SETTLED else []
 
-    def recordings(self, file: SentFile) -> list[Sent]:
+    def recordings(self, file: SubmittedFile) -> list[Submission]:
         """The recordings of a file, or the reason for its refusal. Paths in replays are not followed."""
         name = file.name
         if file.problem:
-            return [Sent(Chunk(name, problem=file.problem))]
+            return [Submission(Chunk(name, problem=file.problem))]
         try:
             text = decoded(file.data, name)
             if is_replay(text):
@@ -126,20 +126,20 @@ class RunFolder:
                 parsed, claimed = _parsed(text)
                 whole = self._whole(parsed)
                 kept = whole is parsed and claimed < 0
-                return [Sent(Chunk(name, text=text if kept else write_replay(whole)), whole, claimed)]
+                return [Submission(Chunk(name, text=text if kept else write_replay(whole)), whole, claimed)]
             if is_episode(text):
                 runs = [self._whole(run) for run in parse_episode(text)]
                 text = write_episode(runs)
-                return [Sent(Chunk(name, number, text), run) for number, run in enumerate(runs)]
+                return [Submission(Chunk(name, number, text), run) for number, run in enumerate(runs)]
             records = records_of(text, name)
             if not records and holds_recordings(text):
                 raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
         except NinjaGameError as error:
-            return [Sent(Chunk(name, problem=str(error)))]
+            return [Submission(Chunk(name, problem=str(error)))]
         if len(records) > MAX_RECORDS:
-            return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MAX_RECORDS}"))]
+            return [Submission(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MAX_RECORDS}"))]
         chunks = [Chunk(name, index, records=(record,)) for index, record in enumerate(records)]
-        return [Sent(chunk) for chunk in chunks or [Chunk(name, text=text)]]
+        return [Submission(chunk) for chunk in chunks or [Chunk(name, text=text)]]
 
     def inputs(self, name: str, record: int, digest: str, ticks: int) -> bytes:
         """The inputs of a run, read again. Raises FileError if its file has changed since it was judged."""

@@ -9,14 +9,14 @@ from functools import partial
 from hashlib import sha256
 from heapq import heappop, heappush, nlargest, nsmallest
 from itertools import groupby, pairwise
-from typing import NamedTuple
+from typing import NamedTuple, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.board.players import folded
-from ninja_game.board.runs import OWN, Rejected, Run, RunKey, RunRows
+from ninja_game.board.runs import OWN, RejectedRun, Run, RunKey, RunRows
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import KEYS_DOWN
 
@@ -91,6 +91,9 @@ class Likeness(NamedTuple):
     by_inputs: bool  #: as ``Near.by_inputs``
     file: str = ""  #: the other run's file
     record: int = 0
+
+
+_LIKENESS_TYPES = get_type_hints(Likeness)
 
 
 class Common:
@@ -219,13 +222,13 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
     return distance
 
 
-def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[Run], list[Rejected]]:
+def without_copies(runs: list[Run], memo: Memo, owners: RunRows) -> tuple[list[Run], list[RejectedRun]]:
     """The runs that are no copies, with near copies marked, and the copies.
 
     If several players sent the same run at one moment, all stay, with a remark. ``owners``: as ``Ledger.owners``.
     """
     on_level: dict[str, list[Run]] = defaultdict(list)
-    copies: list[Rejected] = []
+    copies: list[RejectedRun] = []
     ways: dict[tuple[str, str], list[Run]] = defaultdict(list)
     for run in runs:
         way = run.level, run.way
@@ -308,9 +311,9 @@ class _Compared:
 
     def likeness(self, run: Run) -> Likeness:
         """The likeness of a run to the other player's run that it nearly copies; None if it does not."""
-        noted = self._memo.recall(key := self._key_of(run))
-        if isinstance(noted, list) and [*map(type, noted)] == [str, str, bool, bool, str, int]:
-            return Likeness(*noted)
+        fields = self._memo.recall(key := self._key_of(run))
+        if isinstance(fields, dict) and {name: type(value) for name, value in fields.items()} == _LIKENESS_TYPES:
+            return Likeness(**fields)
         before = range(self._known, len(self._runs))
         for number in sorted(nsmallest(MAX_COMPARED, before, key=lambda number: self._runs[number].tick)):
             self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
@@ -322,7 +325,7 @@ class _Compared:
             number, other = near.numbers[0], self._runs[near.numbers[0]]
             text = f"{near.shared} the run by {other.player} in {other.file}"
             like = Likeness(text, other.player, number < self._earlier, near.by_inputs, *other.key)
-        self._memo.note(key, [*like])
+        self._memo.note(key, like._asdict())
         return like
 
     def _course(self, run: Run) -> Course:

@@ -12,7 +12,7 @@ from itertools import compress, count, pairwise, starmap
 from pathlib import Path
 from typing import Any, NamedTuple, get_type_hints
 
-from ninja_game.board.collect import RunFolder, Sent, SentFile
+from ninja_game.board.collect import RunFolder, Submission, SubmittedFile
 from ninja_game.board.copies import without_copies
 from ninja_game.board.memo import Memo, program, values_digest
 from ninja_game.board.players import UNNAMED, Players, folded
@@ -26,7 +26,7 @@ from ninja_game.board.runs import (
     Dates,
     Judged,
     Ledger,
-    Rejected,
+    RejectedRun,
     Run,
     RunRows,
     ValidatedRuns,
@@ -51,7 +51,7 @@ _LINE = re.compile(r"^(?=[0-9])")
 
 ADVICE = "a key is pressed in the tick in which it goes down, and in no other"
 
-_WORDED = {
+_STRICT_TEXTS = {
     "body": "the {body} body does not count here",
     "outcome": "only runs that reach the exit count",
     "in_time": "it takes longer than the level gives",
@@ -67,7 +67,7 @@ class JudgedFile(NamedTuple):
     name: str
     digest: str
     stamp: list[int]
-    sent: list[Sent]  #: the runs to simulate now
+    submissions: list[Submission]  #: the runs to simulate now
     rows: list[Judged]  #: the file's results
 
 
@@ -110,10 +110,10 @@ def judge(
     return ValidatedRuns(counted, refused, repeated, players.alike, _episodes(credited, counted, shown))
 
 
-def _parted(items: Iterable[Run | Rejected]) -> tuple[list[Run], list[Rejected]]:
+def _parted(items: Iterable[Run | RejectedRun]) -> tuple[list[Run], list[RejectedRun]]:
     """The runs that count so far, and those that do not."""
     items = [*items]
-    return [run for run in items if isinstance(run, Run)], [item for item in items if isinstance(item, Rejected)]
+    return [run for run in items if isinstance(run, Run)], [item for item in items if isinstance(item, RejectedRun)]
 
 
 def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
@@ -122,7 +122,7 @@ def _dated(run: Run, dates: Dates | None, taken: Dates | None) -> Run:
     return replace(run, added=added, taken=later)
 
 
-def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | Rejected:
+def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | RejectedRun:
     """The run, on the ladder ``unknown`` if it does not say how it was made and nobody has decided.
 
     It is rejected if no keyboard can do it, unless it is on the assisted ladder.
@@ -151,7 +151,7 @@ def _of_players(runs: Iterable[Run], players: Players) -> Iterator[Run]:
         yield replace(run.marked(mark), player=player)
 
 
-def _named(item: Rejected, players: Players) -> Rejected:
+def _named(item: RejectedRun, players: Players) -> RejectedRun:
     """A run that does not count, assigned to its author's player if it has one."""
     return item if item.kind == "unreadable" else replace(item, player=players.meet(item.player)[0])
 
@@ -198,15 +198,14 @@ class _Judging:
             jobs=jobs,
             budget=self._budget,
         ):
-            while not self._waiting[0].sent:
+            while not self._waiting[0].submissions:
                 yield self._waiting.popleft()
             file = self._waiting[0]
             results.append(result)
-            if len(results) == len(file.sent):
-                file.rows.extend(starmap(partial(self._row, file), zip(file.sent, results, strict=True)))
+            if len(results) == len(file.submissions):
+                file.rows.extend(starmap(partial(self._row, file), zip(file.submissions, results, strict=True)))
                 if not any(isinstance(judged, Lost) for judged in results):
-                    rows = [[*vars(row).values()] for row in file.rows]
-                    self._memo.note(file.name, [self._context, file.stamp, file.digest, rows])
+                    self._note(file.name, file.stamp, file.digest, [*map(vars, file.rows)])
                 results.clear()
                 yield self._waiting.popleft()
         yield from self._waiting
@@ -215,57 +214,61 @@ class _Judging:
         """The chunks to simulate; the files, those in the memo too, wait in order."""
         for name, why in self._folder.files():
             self._waiting.append(file := self._file(name, why))
-            yield from (sent.chunk for sent in file.sent)
+            yield from (submission.chunk for submission in file.submissions)
 
     def _file(self, name: str, why: str) -> JudgedFile:
         """A file of the memo, else with the runs in it. ``why``: the reason if it is left out."""
         # The stamp is taken first: a file that is changed after it is read again the next time.
         stamp = [] if why else self._folder.stamp(name)
-        noted = self._memo.recall(name)
-        context, seen, digest, rows = noted if isinstance(noted, list) and len(noted) == 4 else ("", [], "", [])
-        known = _known(rows, self._shown) if context == self._context else []
-        if known and stamp and stamp == seen:
+        entry = self._memo.recall(name)
+        entry = entry if isinstance(entry, dict) and entry.get("context") == self._context else {}
+        digest, rows = str(entry.get("digest")), entry.get("rows", [])
+        known = _known(rows, self._shown)
+        if known and stamp and stamp == entry.get("stamp"):
             return JudgedFile(name, digest, stamp, [], known)
-        file = SentFile(name, problem=why) if why else self._folder.file(name)
+        file = SubmittedFile(name, problem=why) if why else self._folder.file(name)
         if known and digest == file.digest:
-            self._memo.note(name, [context, stamp, digest, rows])
+            self._note(name, stamp, digest, rows)
             return JudgedFile(name, digest, stamp, [], known)
         return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
 
-    def _row(self, file: JudgedFile, sent: Sent, result: Result) -> Judged:
+    def _note(self, name: str, stamp: list[int], digest: str, rows: list[dict[str, Any]]) -> None:
+        self._memo.note(name, {"context": self._context, "stamp": stamp, "digest": digest, "rows": rows})
+
+    def _row(self, file: JudgedFile, submission: Submission, result: Result) -> Judged:
         """The row of a recording; it is unreadable if pages cannot hold it."""
-        row = _row(sent, result, self._folder)
+        row = _row(submission, result, self._folder)
         entry = self._shown.entries.get(row.level)
         if entry and row.way:
             try:
                 # Its inputs were read from a text, and can be written into one.
                 shared_text(replace(self._run(file, row, entry).replay, inputs=b""), entry.named.level)
             except (NinjaGameError, ValueError) as error:
-                return Judged(row.record, "unreadable", str(error))
+                return Judged(record=row.record, kind="unreadable", why=str(error))
         return row
 
-    def run(self, file: JudgedFile, row: Judged) -> Run | Rejected:
+    def run(self, file: JudgedFile, row: Judged) -> Run | RejectedRun:
         """The run of a row, without a date; rejected if it does not count, whatever the keeper decides."""
         entry = self._shown.entries.get(row.level)
         if entry and (row.way or not row.kind):
             return self._run(file, row, entry)
-        return Rejected(file.name, row.record, row.kind, row.why, row.author, entry.title if entry else "")
+        return RejectedRun(file.name, row.record, row.kind, row.why, row.author, entry.title if entry else "")
 
     def _run(self, file: JudgedFile, row: Judged, entry: Entry) -> Run:
         values = vars(row) | {"file": file.name, "digest": file.digest, "player": row.author, "folder": self._folder}
         return Run(**values, marks=(row.mark,) if row.mark else (), entry=entry, added="")
 
 
-def _known(noted: Any, shown: PublishedLevels) -> list[Judged]:
-    """The recordings of a file in the memo; none if the entry is invalid."""
+def _known(rows: Any, shown: PublishedLevels) -> list[Judged]:
+    """The recordings of a file in the memo, from their fields; none if a row is invalid."""
     with suppress(TypeError, ValueError):
-        rows = [Judged(*row) for row in noted]
-        for row in rows:
+        recordings = [Judged(**row) for row in rows]
+        for row in recordings:
             known = row.kind in REJECTED_KINDS if row.kind else row.level in shown.entries
             if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
             parse_provenance(row.made)
-        return rows
+        return recordings
     return []
 
 
@@ -293,11 +296,11 @@ def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -
     for run in runs:
         first[run.player] = min(run.moved_in, first.get(run.player, run.moved_in))
 
-    def asked(run: Run) -> bool:
+    def is_questioned(run: Run) -> bool:
         row = ledger.runs.get(run.key, {})
         return bool(row.get("untrusted")) if row.get("way") == run.way else run.moved_in > first[run.player]
 
-    settled = [run for run in runs if run.confirmed or not asked(run)]
+    settled = [run for run in runs if run.confirmed or not is_questioned(run)]
     sizes = Counter(run.sender for run in settled)
     numbers = Counter((run.sender, run.player) for run in settled).most_common()
     homes = {player: sender for (sender, player), number in reversed(numbers) if sender and 2 * number > sizes[sender]}
@@ -308,63 +311,67 @@ def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -
             yield run.now_confirmed
         elif home != run.sender and (run.sender, run.player) not in trusted:
             why = f"the other runs by {run.player} are from {home}/"
-            yield replace(run.marked(why), untrusted=why if asked(run) else "")
+            yield replace(run.marked(why), untrusted=why if is_questioned(run) else "")
         else:
             yield run
 
 
-def _row(sent: Sent, result: Result, folder: RunFolder) -> Judged:
+def _row(submission: Submission, result: Result, folder: RunFolder) -> Judged:
     if isinstance(result, Unreadable):
-        return Judged(sent.chunk.first, "unreadable", _without_name(result.message, sent.chunk.file))
-    if folded(result.author) == UNNAMED or (not sent.replay and not result.made):
+        why = _without_name(result.message, submission.chunk.file)
+        return Judged(record=submission.chunk.first, kind="unreadable", why=why)
+    if folded(result.author) == UNNAMED or (not submission.replay and not result.made):
         # A record of N names the level's author, not the player; a replay of ours also says how it was made.
         place = result.file + (f", record {result.record}" if result.record > 0 and not result.episode else "")
         result = replace(result, author=f"{UNKNOWN_PLAYER}{place[-MAX_NAME // 2 :]})")
     no_keyboard = not_strict(result, "possible_by_keyboard")
-    mark = _impossible(result, sent) if no_keyboard in result.problems else ""
+    mark = _impossible(result, submission) if no_keyboard in result.problems else ""
     body = not_strict(result, "body")  # all else that is wrong follows from it
     wrong = [body] if body in result.problems else result.problems
-    problems = [_worded(problem, result, sent) for problem in wrong if problem != no_keyboard]
-    if sent.claimed >= 0 and result.outcome != NOT_RUN:
-        other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=sent.claimed)
-        problems = [str(other) if result.end_tick != sent.claimed else INPUTS_AFTER]
+    problems = [_problem_text(problem, result, submission) for problem in wrong if problem != no_keyboard]
+    if submission.claimed >= 0 and result.outcome != NOT_RUN:
+        other = run_problem("other-end", tick=result.ticks - 1, outcome=result.outcome, claimed=submission.claimed)
+        problems = [str(other) if result.end_tick != submission.claimed else INPUTS_AFTER]
     if problems:
         why = "; ".join([*problems, mark, ADVICE] if mark else problems)
         kind = "practice" if result.practice else "refused"
-        return Judged(result.record, kind, why, result.author, result.level_digest)
-    inputs = folder.known[result.file, result.record] = sent.inputs(result.ticks)
+        return Judged(record=result.record, kind=kind, why=why, author=result.author, level=result.level_digest)
+    inputs = folder.known[result.file, result.record] = submission.inputs(result.ticks)
     pressed = [new & ~old & KEYS_DOWN for old, new in pairwise(b"\0" + inputs)]
     jumps = sum(bool(keys & JUMP_HELD) for keys in pressed)
     # What a tool made needs no keyboard: it is marked. Whether another one was made so is the keeper's decision.
     kind, why = ("refused", f"{mark}; {ADVICE}") if mark and not result.assisted else ("", "")
     return Judged(
-        result.record, kind, why, result.author, result.level_digest, result.end_tick, result.gold,
-        result.score_ticks or 0, result.xy_sha256, sum(map(int.bit_count, pressed)), jumps,
-        result.made, result.assisted, result.co_authors, result.episode, mark,
+        record=result.record, kind=kind, why=why, author=result.author, level=result.level_digest,
+        tick=result.end_tick, gold=result.gold, score=result.score_ticks or 0, way=result.xy_sha256,
+        presses=sum(map(int.bit_count, pressed)), jumps=jumps, made=result.made, assisted=result.assisted,
+        co_authors=result.co_authors, episode=result.episode, mark=mark,
     )  # fmt: skip
 
 
-def _worded(problem: RunProblem, result: Verdict, sent: Sent) -> str:
+def _problem_text(problem: RunProblem, result: Verdict, submission: Submission) -> str:
     """A problem in words for the sender of a run."""
     if result.practice and problem == not_strict(result, "practice"):
         return f"it was {result.made}: runs with such help do not count"
     if problem == not_strict(result, "complete"):
-        replay = sent.replay
-        demo = fit_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(sent.chunk.records[0].demo)
+        replay = submission.replay
+        demo = (
+            fit_demo(replay.inputs, replay.demo_length or 0) if replay else parse_demo(submission.chunk.records[0].demo)
+        )
         frames = f"it claims {demo.end} frames and holds {demo.end - demo.missing}"
         return (
             f"the demo is cut off: {frames}; `ninja-game convert FILE OUT --to replay` makes a run that claims no more"
         )
-    if problem.code == "other-level" and sent.replay and sent.replay.level_name:
-        name, digest = sent.replay.level_name, result.level_digest[:16]
+    if problem.code == "other-level" and submission.replay and submission.replay.level_name:
+        name, digest = submission.replay.level_name, result.level_digest[:16]
         return f"{name!r} is not one of the levels that count; its level_digest begins with {digest}"
-    worded = (words for field, words in _WORDED.items() if problem == not_strict(result, field))
+    worded = (words for field, words in _STRICT_TEXTS.items() if problem == not_strict(result, field))
     return next((words.format(body=result.body) for words in worded), str(problem))
 
 
-def _impossible(result: Verdict, sent: Sent) -> str:
+def _impossible(result: Verdict, submission: Submission) -> str:
     """A remark about the first keys in a run that no keyboard can press."""
-    inputs = sent.inputs(result.ticks)
+    inputs = submission.inputs(result.ticks)
     odd = (keys != possible for keys, possible in zip(inputs, with_press_bits(inputs), strict=True))
     tick = next(compress(count(), odd))
     down = ", ".join(name for name, key in MOVES if inputs[tick] & key) or "no key"

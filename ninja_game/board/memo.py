@@ -11,7 +11,7 @@ from ninja_game.errors import DAMAGED
 from ninja_game.files.reading import digest_of, read_bytes
 from ninja_game.files.writing import write_atomically
 
-_MAX_BYTES = 2**30  # the memo of a million runs has half as many
+_MAX_BYTES = 2**30  # the memo of a million runs has two thirds of that
 MAX_MEMOS = 100  # the newest stay
 
 

@@ -50,10 +50,10 @@ def folded(player: str) -> str:
 
 
 @lru_cache(4096)
-def look(player: str) -> str:
+def confusable_form(player: str) -> str:
     r"""A name by its look: equal for names that a reader may confuse.
 
-    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi\u04c0I")
+    >>> confusable_form("\u0410nn") == confusable_form("Ann"), confusable_form("Bill") == confusable_form("Bi\u04c0I")
     (True, True)
     """
     letters = unicodedata.normalize("NFKD", player)
@@ -90,7 +90,7 @@ class Players:
         """The player of an author, and a remark if the name looks like that of an earlier player."""
         name = folded(author)
         player = self._names.setdefault(name, name if name == UNNAMED else player_named(author))
-        first = self._looks.setdefault(look(player), player)
+        first = self._looks.setdefault(confusable_form(player), player)
         if first != player:
             self.alike[player] = first
             return player, f"the player's name looks like {first} and is another one"

@@ -122,11 +122,13 @@ def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> R
                 raise FormatError(f"{place}: not a date", str(path), found=repr(date[:40]), expected=expected)
         if row.get("what", REJECTED) not in DECISIONS:
             expected = ", ".join(DECISIONS)
-            raise FormatError(f"{place}: 'what' is no decision", str(path), found=plain(row["what"]), expected=expected)
+            raise FormatError(
+                f"{place}: 'what' is no decision", str(path), found=escaped(row["what"]), expected=expected
+            )
         # A decision is about a level, a way and a player.
         key = row[first], (row["way"], folded(row["player"])) if part == "decisions" else row[second]
         if key in rows_by_key:
-            raise FormatError(f"{place}: given twice", str(path), found=plain(key[0]))
+            raise FormatError(f"{place}: given twice", str(path), found=escaped(key[0]))
         rows_by_key[key] = row
     return rows_by_key
 
@@ -162,7 +164,7 @@ def moderate(
     for name, what in decisions:
         rows = _rows_of(name, _decidable(ledger, runs, files, what), what)
         if what in (PLAYED, ASSISTED):
-            tell(f"ranked as {what}: {counted(len(rows), 'run')} of {plain(name)}")
+            tell(f"ranked as {what}: {counted(len(rows), 'run')} of {escaped(name)}")
         for row in rows:
             run = row["level"], row["way"], row["file"], row["player"]
             decision = Decision(*run, what, reason, now.strftime(DATE))
@@ -196,7 +198,7 @@ def _rows_of(name: str, rows: Sequence[dict[str, Any]], what: str) -> list[dict[
 
 def _no_run(name: str, files: Sequence[str], what: str, which: str) -> ArgumentError:
     """The error for a name without runs, with the files that have some."""
-    some = ", ".join(dict.fromkeys(map(plain, files[:10]))) or "none"
+    some = ", ".join(dict.fromkeys(map(escaped, files[:10]))) or "none"
     return ArgumentError(f"{what} {name!a}: no run of the ledger {which}; there are: {some}")
 
 
@@ -210,7 +212,7 @@ def read_dates(path: Path, now: datetime) -> dict[str, str]:
         date = f"{day}T00:00:00Z" if len(day) == len("2026-01-31") else day
         if file in dates or not _is_date(date, now):
             expected = "FILE,DATE, once for a file, with a date in the past as 2026-01-31 or 2026-01-31T12:00:00Z"
-            raise FormatError(f"row {number}: no date of a file", str(path), found=plain(row), expected=expected)
+            raise FormatError(f"row {number}: no date of a file", str(path), found=escaped(row), expected=expected)
         dates[file] = date
     return dates
 
@@ -251,52 +253,52 @@ def board_news(ranking: Ranking, before: Ledger) -> Iterator[tuple[bool, str]]:
     new = [item for item in ranking.judged.again if (item.file, item.record) not in rejected]
     for (file, player), levels in Counter((item.file, item.player) for item in new).items():
         what = counted(levels, "level")
-        yield True, f"new: {plain(file)}: an episode in which {plain(player)} plays {what} as in an earlier run"
+        yield True, f"new: {escaped(file)}: an episode in which {escaped(player)} plays {what} as in an earlier run"
     for item in ranking.judged.rejected:
         key = item.file, item.record
         if key not in rejected or rejected[key].get("why") != item.why:
-            yield item.kind == "practice", f"{item.kind}: {_place(key)}: {plain(item.why)}"
-    yield from ((False, line) for line in gone(ranking, before))
+            yield item.kind == "practice", f"{item.kind}: {_place(key)}: {escaped(item.why)}"
+    yield from ((False, line) for line in lines_of_gone(ranking, before))
 
 
-def gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
+def lines_of_gone(ranking: Ranking, before: Ledger) -> Iterator[str]:
     """Lines about runs of a ledger whose files are gone, with the present leaders of their levels."""
     judged = ranking.judged
     present = {run.key for run in judged.runs} | {(item.file, item.record) for item in judged.rejected + judged.again}
     for key, row in sorted(before.runs.items()):
         if key not in present:
             leaders = [
-                f"{ranking.leaderboard_name(board)} {plain(ranked.run.player)}, {board[1].text(ranked.values[0])}"
+                f"{ranking.leaderboard_name(board)} {escaped(ranked.run.player)}, {board[1].text(ranked.values[0])}"
                 for board, table in ranking.tables.get(row["level"], {}).items()
                 for ranked in table
                 if ranked.place == 1
             ]
             first = f"first now: {'; '.join(leaders) or 'nobody'}"
-            yield f"gone: {_place(key)}: {plain(row['player'])} on {plain(row['level_name'])}; {first}"
+            yield f"gone: {_place(key)}: {escaped(row['player'])} on {escaped(row['level_name'])}; {first}"
 
 
 def _achieved(ranking: Ranking, run: Run) -> str:
     """Time, gold, places, medal and remark of a run in a line."""
-    text = f"{plain(run.player)} passes {plain(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
+    text = f"{escaped(run.player)} passes {escaped(run.entry.title)} in {seconds_text(run.tick)} s with {run.gold} gold"
     for (ladder, category), table, number in ranking.places.get(run.key, ()):
         if place := table[number].place:
             text += f"; {'' if ladder == PLAYED else 'assisted, '}{category.name}: place {place} of {len(table)}"
     if run.medal:
         text += f"; {run.medal} medal"
-    return f"{text}; note: {plain(run.remark)}" if run.remark else text
+    return f"{text}; note: {escaped(run.remark)}" if run.remark else text
 
 
 def _place(key: RunKey) -> str:
     file, record = key
-    return plain(file) + (f", record {record}" if record else "")
+    return escaped(file) + (f", record {record}" if record else "")
 
 
-def plain(text: str) -> str:
+def escaped(text: str) -> str:
     """An untrusted text in a line of a report, safe in Markdown between fences."""
     return shown_text(text, 300).replace("`", "'")
 
 
-def unnamed(judged: ValidatedRuns) -> str:
+def unnamed_hint(judged: ValidatedRuns) -> str:
     """Advice on naming the players of nameless runs, such as demos of N; "" where all runs have a name."""
     nameless = sum(run.player.startswith(UNKNOWN_PLAYER) for run in judged.runs)
     how = "name their players with: ninja-game convert FILE OUT --to replay --author NAME"
@@ -313,7 +315,7 @@ def summary(judged: ValidatedRuns) -> str:
     kinds = Counter(item.kind for item in judged.rejected)
     rejected = ", ".join(f"{kinds[kind]} {REJECTED_KINDS[kind][0]}" for kind in sorted(kinds))
     near = [run.file for run in judged.runs if run.waits]
-    files = [f"--confirm {plain(file)}" for file in dict.fromkeys(near)]
+    files = [f"--confirm {escaped(file)}" for file in dict.fromkeys(near)]
     some = " ".join([*files[:MAX_NAMED], *(["..."] if len(files) > MAX_NAMED else [])])
     waits = f"; {counted(len(near), 'waits', 'wait')} for confirmation: {some}" if near else ""
     return f"{counts(judged)}; rejected: {rejected or 'none'}{waits}"

@@ -47,7 +47,7 @@ UNKNOWN_PLAYER = "unknown ("  # begins the name of a player that no run names; t
 OWN = "own"  # kind of a level of an episode whose run the same player has sent before
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Judged:
     """The result of a recording, as plain values that can be cached; undescribed fields are those of Verdict."""
 
@@ -206,11 +206,11 @@ class Run(Judged):
         """The ninja after each tick: float64 (ticks, 2), px."""
         return run_level(self.entry.named.level, self.inputs).positions
 
-    def rejected(self, kind: str, why: str, first: RunKey | None = None) -> Rejected:
+    def rejected(self, kind: str, why: str, first: RunKey | None = None) -> RejectedRun:
         """The run as one that does not count."""
-        return Rejected(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
+        return RejectedRun(*self.key, kind, why, self.player, self.entry.title, self.way, self.added, first)
 
-    def decided_by(self, decision: Decision | None) -> Run | Rejected:
+    def decided_by(self, decision: Decision | None) -> Run | RejectedRun:
         """The run after a decision on it, if there is one."""
         if decision is None:
             return self
@@ -235,7 +235,7 @@ class Run(Judged):
 
 
 @dataclass(frozen=True)
-class Rejected:
+class RejectedRun:
     """A run, or a file, that does not count."""
 
     file: str
@@ -254,8 +254,8 @@ class ValidatedRuns:
     """All runs of a folder."""
 
     runs: tuple[Run, ...]  #: runs that count, in the order in which they were added
-    rejected: tuple[Rejected, ...]  #: runs that do not count, by file
-    again: tuple[Rejected, ...] = ()  #: levels of episodes that repeat an earlier run by the same player, of kind OWN
+    rejected: tuple[RejectedRun, ...]  #: runs that do not count, by file
+    again: tuple[RejectedRun, ...] = ()  #: of kind OWN: episode levels with an earlier run by the player
     alike: Mapping[str, str] = field(default_factory=dict)  #: the earlier player with a similar name, by player
     #: Runs of whole episodes, by the episode's key; a run for each of its levels
     episodes: Mapping[str, list[list[Run]]] = field(default_factory=dict)

@@ -97,10 +97,10 @@ def convert(
     if author and form not in ("replay", "inputs", "episode"):
         raise click.UsageError("--author is for recordings: add --to replay")
     player = shown_text(author or "", MAX_NAME).strip()
-    holdings: Sequence[NamedLevel | Recording]
+    items: Sequence[NamedLevel | Recording]
     if form in RUN_FORMS or form == "episode" or level:
         found = (recording for source in sources for recording in load_replays(source, level=level))
-        holdings = recordings = [by_player(recording, player) for recording in found]
+        items = recordings = [by_player(recording, player) for recording in found]
         form = form or "file"
         if form in RUN_FORMS:
             written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
@@ -108,7 +108,7 @@ def convert(
         elif form == "episode":
             output.write(episode_text(recordings, budget))
     else:
-        holdings = levels = [named for source in sources for named in load_levels(source)]
+        items = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")
         if form == "ascii":
             pictures = [write_ascii_level(named.level, **headers_of(named), legend=legend) for named in levels]
@@ -116,8 +116,8 @@ def convert(
     if form == "file":
         output.write(level_file_text(texts, level))
     elif form == "string":
-        output.write("".join(write_level_string(named.level, exact=True) + "\n" for named in holdings))
-    if lost := left_out(form, holdings, [text for _, text in texts]):
+        output.write("".join(write_level_string(named.level, exact=True) + "\n" for named in items))
+    if lost := left_out(form, items, [text for _, text in texts]):
         click.echo(f"left out: {', '.join(lost)}", err=True)
 
 

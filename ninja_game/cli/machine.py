@@ -140,10 +140,10 @@ def compile_everything(processes: int, *, quiet: bool) -> None:
     """
     from ninja_game.backend.kernel_cache import are_cached, code_folder
     from ninja_game.backend.kernels import run_world
-    from ninja_game.runs.workers import results_of, workers
+    from ninja_game.runs.workers import open_workers, results_of
 
     began = time.monotonic()
-    with workers(processes, processes=processes > 1) as pool:
+    with open_workers(processes, processes=processes > 1) as pool:
         for number, (name, lost) in enumerate(results_of(pool, compile_for, WORK), 1):
             if lost is not None:
                 raise lost

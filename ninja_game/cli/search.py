@@ -206,7 +206,7 @@ def search(
     from ninja_game.formats.load import load_replays
     from ninja_game.search.certificate import improved_replay
     from ninja_game.search.formula.methods import search_span
-    from ninja_game.search.formula.task import SpanTask, score_text, tidied
+    from ninja_game.search.formula.task import SpanTask, score_text, without_useless_keys
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise cannot be used together")
@@ -226,7 +226,7 @@ def search(
         found = search_span(
             task, report, method=method, every=every, seed=seed, threads=jobs, report_miss=report.misses.append
         )
-    results = [tidied(task, result) for result in report.sooner(found)]
+    results = [without_useless_keys(task, result) for result in report.sooner(found)]
     if results:
         report.save(results[0])
     for result in results or report.misses[-1:]:

@@ -172,7 +172,16 @@ def board(
       ninja-game board replays/ --levels my-pack/ --site public/
       ninja-game board ask replays/ rank 00-0
     """
-    from ninja_game.board.report import board_news, board_text, check_confirmed, gone, moderate, plain, summary, unnamed
+    from ninja_game.board.report import (
+        board_news,
+        board_text,
+        check_confirmed,
+        escaped,
+        lines_of_gone,
+        moderate,
+        summary,
+        unnamed_hint,
+    )
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_ledger, check_site
     from ninja_game.web.pages.frame import GAME_PAGE
@@ -203,11 +212,11 @@ def board(
     if check:
         return _show_news(list(board_news(ranking, before)), summary(judged))
     for run in judged.rejected:
-        click.echo(f"{run.kind}: {plain(run.file)}: {plain(run.why)}")
-    for line in gone(ranking, before):
+        click.echo(f"{run.kind}: {escaped(run.file)}: {escaped(run.why)}")
+    for line in lines_of_gone(ranking, before):
         click.echo(line)
     click.echo(summary(judged))
-    if hint := unnamed(judged):
+    if hint := unnamed_hint(judged):
         click.echo(hint, err=True)
     return 0
 

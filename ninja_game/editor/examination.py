@@ -32,7 +32,7 @@ class Examined(NamedTuple):
     findings: list[Finding]
 
 
-def problems_of(question: LevelQuestion) -> Examined:
+def examine_level(question: LevelQuestion) -> Examined:
     odd = level_problems(question.level, question.says, question.inputs)
     # An unreachable exit needs no finding of the solver too.
     out_of_reach = {number for finding in odd if finding.code in UNREACHABLE_CODES for number in finding.records}
@@ -44,7 +44,7 @@ class Examination:
     """Examines a level again when it, or what is known about it, has changed."""
 
     def __init__(self) -> None:
-        self.job = NewestJob(problems_of)
+        self.job = NewestJob(examine_level)
         self._asked: LevelQuestion | None = None
         self._asked_at = 0.0
 

@@ -83,7 +83,7 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
     if pack.index.is_signed and 0 < len(unsigned) < len(pack.levels):
         names = ", ".join(shown_text(named.name) for named in unsigned)
         notes.append(f"Without an author, so by the pack's, {shown_text(pack.index.author)}: {names}")
-    problems = problems_of(pack, obstacles)
+    problems = problems_of_pack(pack, obstacles)
     try:
         link = pack.files.link()
     except LinkError as error:
@@ -91,7 +91,7 @@ def prepare_pack(path: Path, *, seconds: float, jobs: int, say: Say, obstacles: 
     return ReadyPack(pack, problems, pack.files.zipped(), link, notes)
 
 
-def problems_of(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
+def problems_of_pack(pack: Pack, obstacles: Obstacles) -> list[PackFinding]:
     """The findings about a pack, accepted or not; for a run that no search found, with the reason.
 
     Consequences of another finding are left out, such as a missing run with all gold if there is no run to the exit.

@@ -30,7 +30,7 @@ def _single(vocabulary: Mapping[str, float]) -> dict[str, tuple[float, ...]]:
 
 _FACING = {"direction": Property((2,), _single(DIRECTION_WORDS))}
 
-PROPERTIES: dict[int, dict[str, Property]] = {
+PROPERTIES_BY_KIND: dict[int, dict[str, Property]] = {
     ONE_WAY: _FACING,
     THWUMP: _FACING,
     LAUNCH_PAD: {"direction": Property((2, 3), PAD_NORMALS)},
@@ -47,7 +47,7 @@ _SIDES = ("right", "bottom", "left", "top")  # indexed by direction
 
 
 def properties(spec: ObjectSpec) -> dict[str, Property]:
-    return PROPERTIES.get(spec.kind, {}) if well_formed(spec) else {}
+    return PROPERTIES_BY_KIND.get(spec.kind, {}) if well_formed(spec) else {}
 
 
 def word(spec: ObjectSpec, name: str) -> str:

@@ -161,12 +161,12 @@ def write_watch(files: Sequence[str]) -> str:
     return f"#watch={','.join(files[:MAX_TEXTS])}"
 
 
-def watched(fragment: str) -> list[str]:
+def watched_names(fragment: str) -> list[str]:
     """The files that a fragment of ``write_watch`` names, relative to the page; empty for any other fragment.
 
     Raises LinkError for names that no board gives, so that a page fetches nothing else.
 
-    >>> watched("#watch=0123456789abcdef")
+    >>> watched_names("#watch=0123456789abcdef")
     ['replays/0123456789abcdef.txt']
     """
     _, mark, names = fragment.partition("#watch=")
@@ -177,7 +177,7 @@ def watched(fragment: str) -> list[str]:
 
 
 def watched_colours(fragment: str) -> list[int]:
-    """The numbers of the runs' colours, which a fragment of ``watched`` may have, one per run.
+    """The numbers of the runs' colours, which a fragment of ``watched_names`` may have, one per run.
 
     >>> watched_colours("#watch=0123456789abcdef-2,fedcba9876543210-0"), watched_colours("#watch=0123456789abcdef")
     ([2, 0], [])

@@ -12,7 +12,7 @@ from typing import Literal
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.bundled import bundled_levels
 from ninja_game.files.reading import read_included
-from ninja_game.formats.ascii.places import shown
+from ninja_game.formats.ascii.places import quoted
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.n14.level_file import MARKER, is_demo, read_level_file
@@ -150,7 +150,7 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
         level = _levels_by_digest().get(replay.level_digest)
     if level is None:
         hint = "give it with --level, or record the replay with its level inside"
-        named = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
+        named = quoted(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
         if not source:
             hint = "'level:' leads to a file in the replay's folder or below it only"
         raise ReplayError("the replay's level is not here", file, found=named, hint=hint)

@@ -14,7 +14,7 @@ from functools import cache, lru_cache
 
 from ninja_game.sim.rules import NAN  # the only NaN that reading gives: as one object it makes equal texts equal tuples
 
-_PLAIN = re.compile(r"0|[1-9][0-9]{0,14}")
+_SHORT_WHOLE = re.compile(r"0|[1-9][0-9]{0,14}")
 _DECIMAL = re.compile(r"[ \t\r\n]*([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]+))?")
 _HEX = re.compile(r"0[xX]([0-9a-fA-F]+)")
 _OCTAL = re.compile(r"([+-]?)(0[0-7]+)")
@@ -37,7 +37,7 @@ def parse_flash_number(text: str) -> float:
     >>> parse_flash_number("408.15"), parse_flash_number("0.707106781186547"), parse_flash_number("685 ")
     (408.15000000000003, 0.7071067811865468, nan)
     """
-    if _PLAIN.fullmatch(text):
+    if _SHORT_WHOLE.fullmatch(text):
         return float(text)  # up to 15 digits every partial sum is an exact integer
     match = _DECIMAL.fullmatch(text)
     if match is None:

@@ -19,7 +19,7 @@ from ninja_game.generator.layouts import LAYOUTS, name_for
 from ninja_game.generator.obstacles import hazards_beside, nearest_hazard
 from ninja_game.generator.packed import named_level
 from ninja_game.generator.scene import Scene
-from ninja_game.runs.level_design import design, design_findings
+from ninja_game.runs.level_design import design_findings, measure_design
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import UnverifiedRunError, verified_run
 from ninja_game.search.solve import solve
@@ -90,7 +90,7 @@ def generate(
         if certified is None or stop.is_set():
             continue
         run, measured = certified
-        lacking = len(list(design_findings(design(scene.level, run.inputs))))
+        lacking = len(list(design_findings(measure_design(scene.level, run.inputs))))
         named = named_level(name_for(plan, rng), scene.level, seed, wanted, measured)
         generated = Generated(named, run, measured)
         rank = not _is_near(measured, wanted, 2), lacking > 0, abs(measured - wanted)

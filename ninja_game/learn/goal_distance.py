@@ -7,17 +7,17 @@ world first reaches its state, and then kept. Fields know walls, mines and doors
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Indices
-from ninja_game.learn.observations.part import PartContext, clamp
+from ninja_game.learn.observations.part import Array, Lookup, PartContext, clamp
 from ninja_game.search.heuristics import FARTHEST, POINTS, Heuristics, open_bits, point_at
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.schema.declare import fast, kernel
+from ninja_game.sim.schema.world_fields import TileMap, World
 
 SPARE_FIELDS = 1024  # fields that are kept although no world is in their state; 53 KB each
 
@@ -100,8 +100,8 @@ def point_within(x: float, y: float) -> int:
 
 @kernel
 def measure_distance(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int,
-    bounds: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    bounds: Lookup, switches: Lookup, states: Array, stale: Array, fields: Array, rows: Array, ticks: Array,
 ) -> None:  # fmt: skip
     """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state has changed."""
     for k in range(first, last):

@@ -1,6 +1,6 @@
 """Rewards: a weighted sum of terms.
 
->>> reward_terms("gold")
+>>> terms_of("gold")
 [GoldReward(weight=0.01)]
 """
 
@@ -72,7 +72,7 @@ REWARD_TERMS: dict[str, type[RewardTerm]] = {
 """The terms, by name."""
 
 
-def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[RewardTerm]:
+def terms_of(reward: RewardLike | Sequence[RewardLike] | None) -> list[RewardTerm]:
     """Resolve terms: one, several, or None for the sparse reward; names mean terms with default weights.
 
     Raises ArgumentError for anything else.
@@ -87,12 +87,15 @@ def reward_terms(reward: RewardLike | Sequence[RewardLike] | None) -> list[Rewar
     return terms
 
 
-def weights_of(terms: Sequence[RewardTerm]) -> list[float]:
+def event_rewards(terms: Sequence[RewardTerm]) -> dict[str, float]:
     """The rewards of an exit, a death, a piece of gold and a tick, summed over the terms, without shaping."""
     worth = dict.fromkeys(REWARD_TERMS.values(), 0.0)
     for term in terms:
         worth[type(term)] += term.weight
-    return [worth[ExitReward], -worth[DeathPenalty], worth[GoldReward], -worth[TimePenalty]]
+    return {
+        "exit_reward": worth[ExitReward], "death_reward": -worth[DeathPenalty],
+        "gold_reward": worth[GoldReward], "tick_reward": -worth[TimePenalty],
+    }  # fmt: skip
 
 
 MIN_POTENTIAL = -1.0  # the lowest Φ: at least twice as far from the exit as the start

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
-from typing import Any, TypedDict
+from typing import Any, NamedTuple, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,19 +31,18 @@ from ninja_game.learn.levels.source import ChosenLevels, LevelSequences
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import PartContext
 from ninja_game.learn.protocol import CHANCES, draw_starts, next_random
-from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, reward_terms, weights_of
+from ninja_game.learn.rewards import DistanceShaping, RewardLike, Shaping, event_rewards, terms_of
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, MINE_EXPLODED
 from ninja_game.sim.inputs import with_press_bit
 from ninja_game.sim.level import Body, is_box
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.declare import kernel
-from ninja_game.sim.schema.world_fields import MAX_EVENTS, World
+from ninja_game.sim.schema.world_fields import MAX_EVENTS, TileMap, World
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 from ninja_game.simulation import SaveState, Simulation
 
-EXIT_WEIGHT, DEATH_WEIGHT, GOLD_WEIGHT, TICK_WEIGHT = range(4)  # indices of ``weights``
 _FACT_ROWS = 8
 OUTCOME_ROW, TICKS_ROW, GOLD_ROW, EVENTS_ROW, ENDED_ROW, PLAYED_ROW, WAIT_ROW, RANDOM_ROW = range(_FACT_ROWS)
 """Rows of ``facts``, a column per world: keys of its last tick in PLAYED_ROW, remaining steps without keys in WAIT_ROW,
@@ -53,22 +52,34 @@ _CHANGES = (1 << GOLD_TAKEN) | (1 << MINE_EXPLODED) | (1 << EXIT_OPENED)
 """Events that change the looks of objects that never move."""
 
 
+class StepSettings(NamedTuple):
+    """The settings of a step: ticks, a number of CHANCES, and the reward of each event."""
+
+    frame_skip: int  #: ticks of a step
+    time_limit: int  #: ticks of an episode
+    repeat: int  #: of CHANCES: that a world repeats the keys of the previous step
+    exit_reward: float  #: for reaching the exit
+    death_reward: float  #: for dying, 0 or less
+    gold_reward: float  #: for each piece
+    tick_reward: float  #: for each tick, 0 or less
+
+
 @kernel
 def advance_worlds(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, keys: Any,
-    frame_skip: int, time_limit: int, repeat: int, weights: Any,
-    rewards: Any, facts: Any, changed: Any, terminated: Any, truncated: Any,
+    maps: Sequence[TileMap], level_of: Indices, worlds: Sequence[World], indices: Indices, first: int, last: int,
+    keys: Keys, settings: Sequence[StepSettings], rewards: NDArray[np.float64], facts: NDArray[np.int64],
+    changed: NDArray[np.bool_], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_],
 ) -> int:  # fmt: skip
-    """Run worlds ``indices[first:last]`` with their ``keys`` for ``frame_skip`` ticks; gives the number of ticks run.
+    """Run worlds ``indices[first:last]`` for one step with their ``keys``; gives the number of ticks run.
 
-    A world stops at its first exit contact or death, and at ``time_limit`` ticks. As on a keyboard, jump is pressed in
-    a tick in which it is held and was not held before. ``repeat`` of CHANCES: chance that a world repeats the keys of
-    the previous step; a waiting world gets no keys. ``weights`` (EXIT_WEIGHT to TICK_WEIGHT): rewards; ``rewards``
-    (worlds) gets their sum. ``facts`` (OUTCOME_ROW to RANDOM_ROW x worlds): EVENTS_ROW has those of all ticks, as bits.
-    ``changed`` (worlds): set if one of _CHANGES happened, and if the list of events was full. ``terminated``,
-    ``truncated`` (worlds): the parts of ENDED_ROW.
+    A world stops at its first exit contact or death, and at the time limit. As on a keyboard, jump is pressed in a tick
+    in which it is held and was not held before. A waiting world gets no keys. ``settings`` has one row, since kernels
+    take arrays. ``rewards`` (worlds) gets the sums. ``facts`` (OUTCOME_ROW to RANDOM_ROW x worlds): EVENTS_ROW has
+    those of all ticks, as bits. ``changed`` (worlds): set if one of _CHANGES happened, and if the list of events was
+    full. ``terminated``, ``truncated`` (worlds): the parts of ENDED_ROW.
     """
     total = 0
+    frame_skip, time_limit, repeat = settings[0].frame_skip, settings[0].time_limit, settings[0].repeat
     for k in range(first, last):
         index = indices[k]
         tiles = maps[level_of[index]]
@@ -95,11 +106,11 @@ def advance_worlds(
             if w.outcome or w.tick >= time_limit:
                 break
         ticks = w.tick - tick
-        reward = weights[GOLD_WEIGHT] * (w.gold - gold) + weights[TICK_WEIGHT] * ticks
+        reward = settings[0].gold_reward * (w.gold - gold) + settings[0].tick_reward * ticks
         if w.outcome == OUTCOME_EXIT:
-            reward += weights[EXIT_WEIGHT]
+            reward += settings[0].exit_reward
         elif w.outcome == OUTCOME_DEAD:
-            reward += weights[DEATH_WEIGHT]
+            reward += settings[0].death_reward
         rewards[index] = reward
         facts[OUTCOME_ROW, index] = w.outcome
         facts[TICKS_ROW, index] = w.tick
@@ -228,7 +239,7 @@ class EnvWorlds:
             self._worlds, fresh, self._changed, time_limit, self.memory == "compiled", max_objects=max_objects
         )
         self.observation = Observation(observation, flat=flat)
-        self.terms = terms = reward_terms(reward)
+        self.terms = terms = terms_of(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
         needs_goal = goal_distance or self._guided or shaping
@@ -249,10 +260,10 @@ class EnvWorlds:
         self.outcomes, self.ticks, self.gold, self.events, self._ended, self.played = self._facts[:WAIT_ROW]
         self._longest_wait = longest_wait
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
-        weights = context.table(weights_of(terms), np.float64)
+        settings = StepSettings(frame_skip, time_limit, int(repeat * CHANCES), **event_rewards(terms))
         self._first_arguments = (self._worlds.maps, level_of, self._worlds.worlds)
         results = self.rewards, self._facts, self._changed, self.terminated, self.truncated
-        self._last_arguments = (frame_skip, time_limit, int(repeat * CHANCES), weights, *results)
+        self._last_arguments = (context.records([settings], StepSettings), *results)
         self._settings: dict[str, Any] = {
             "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
             "frame_skip": frame_skip, "time_limit": time_limit, "repeat": repeat,

@@ -35,7 +35,7 @@ from ninja_game.formats.run_time import level_score
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import WITH_HELP, is_place
 from ninja_game.player.records import Records
-from ninja_game.player.schema import SCHEMA, SCHEMA_VERSION, OtherVersionError, bounded
+from ninja_game.player.schema import SCHEMA, SCHEMA_VERSION, OtherVersionError, bound_queries
 from ninja_game.player.settings import read_settings
 from ninja_game.player.store import Store
 from ninja_game.runs.deaths import KILLERS
@@ -181,7 +181,7 @@ def _without_path(autosave: bytes) -> bytes:
 def _open_records(path: Path) -> Store:
     """The records of a backup. Raises ValueError if they are too large, or contain code such as a trigger."""
     try:
-        with closing(sqlite3.connect(path)) as db, bounded(db):
+        with closing(sqlite3.connect(path)) as db, bound_queries(db):
             ((version,),) = db.execute("PRAGMA user_version")
             if version != SCHEMA_VERSION:
                 raise ValueError(f"records {OtherVersionError(version)}")

@@ -30,11 +30,11 @@ class EpisodePlaythrough(Playthrough):
     assistance, so that the score of the episode counts.
     """
 
-    def __init__(self, data: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
-        super().__init__(data, episode.levels[0], practice_mode=practice_mode)
+    def __init__(self, player: PlayerData, episode: Episode, *, practice_mode: bool = False) -> None:
+        super().__init__(player, episode.levels[0], practice_mode=practice_mode)
         self.episode = episode
         self.position = 0
-        self.legitimate = not practice_mode and data.episode_state(episode) == UNLOCKED
+        self.legitimate = not practice_mode and player.episode_state(episode) == UNLOCKED
         self.score = 0
         self.whole = True
         self.replays: list[Replay] = []
@@ -50,7 +50,7 @@ class EpisodePlaythrough(Playthrough):
 
     def skip_to_furthest(self) -> None:
         """Go to the farthest level that was reached by skipping, if it is in this episode."""
-        beaten = self.data.beaten_in(self.episode)
+        beaten = self.player.beaten_in(self.episode)
         if beaten[0] == self.episode.number and 0 < beaten[1] < len(self.episode.levels) and not self.practice_mode:
             self.whole, self.position = False, beaten[1]
             self.entry = self.episode.levels[self.position]
@@ -77,14 +77,14 @@ class EpisodePlaythrough(Playthrough):
         self.score = attempt.lifetime
         self._passed = attempt
         if counts:
-            self.replays = [*self.replays[: self.position], replay_of(self.data, self.entry, attempt)]
-        count = count_of(self.data, self.entry, attempt, passed=True)
+            self.replays = [*self.replays[: self.position], replay_of(self.player, self.entry, attempt)]
+        count = count_of(self.player, self.entry, attempt, passed=True)
         replays = tuple(self.replays) if counts else ()
         # A copy of the present state: the work may be done later, when the run has gone on.
         work = partial(
             self._save, count, self.position, self.score, replays, legitimate=self.legitimate, whole=self.whole
         )
-        self.notices = save_work(self.data, work)
+        self.notices = save_work(self.player, work)
         return self.notices
 
     def _save(
@@ -92,16 +92,16 @@ class EpisodePlaythrough(Playthrough):
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
-        note_progress(self.data, self.episode, position, replays if whole else (), legitimate=legitimate)
+        note_progress(self.player, self.episode, position, replays if whole else (), legitimate=legitimate)
         if not replays:
             return []
-        notices = save_best(self.data, self.episode.levels[position], replays[-1])
+        notices = save_best(self.player, self.episode.levels[position], replays[-1])
         if position == levels - 1:
-            before = self.data.records.episode_best(self.episode.key)
-            if whole and self.data.records.episode_passed(self.episode.key, score, replays) and before:
+            before = self.player.records.episode_best(self.episode.key)
+            if whole and self.player.records.episode_passed(self.episode.key, score, replays) and before:
                 notices.append(EPISODE_BEST)
             if not self.episode.pack:
-                notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
+                notices += new_unlocks(self.player.store, self.player.columns_complete, self.player.columns_present)
         return notices
 
     def restart(self) -> bool:
@@ -131,40 +131,40 @@ class EpisodePlaythrough(Playthrough):
         self.whole = False
         # No attempt is counted here, and no replay is kept.
         work = partial(self._save, list, self.position, self.score, (), legitimate=self.legitimate, whole=False)
-        self.notices = save_work(self.data, work)
+        self.notices = save_work(self.player, work)
 
 
-def next_run(data: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
+def next_run(player: PlayerData, *, practice_mode: bool = False) -> EpisodePlaythrough | None:
     """The playthrough to continue: after the level played last, or else the first episode that has not been passed.
 
     None without episodes.
     """
-    if not practice_mode and (run := unfinished_run(data)):
+    if not practice_mode and (run := unfinished_run(player)):
         return run
-    episodes = [data.catalogue.episodes[number] for number in sorted(data.catalogue.episodes)]
-    ahead = [episode for episode in episodes if not data.progress.is_beaten(episode.number)]
-    opened = [episode for episode in ahead if data.episode_state(episode) != LOCKED]
+    episodes = [player.catalogue.episodes[number] for number in sorted(player.catalogue.episodes)]
+    ahead = [episode for episode in episodes if not player.progress.is_beaten(episode.number)]
+    opened = [episode for episode in ahead if player.episode_state(episode) != LOCKED]
     chosen = next(iter(opened or ahead or episodes), None)
     if chosen is None:
         return None
-    run = EpisodePlaythrough(data, chosen, practice_mode=practice_mode)
+    run = EpisodePlaythrough(player, chosen, practice_mode=practice_mode)
     run.skip_to_furthest()
     return run
 
 
-def unfinished_run(data: PlayerData, chosen: Episode | None = None) -> EpisodePlaythrough | None:
+def unfinished_run(player: PlayerData, chosen: Episode | None = None) -> EpisodePlaythrough | None:
     """The unfinished run of an episode, or of the one played last; None if it has not been begun or is over."""
-    key, replays = load_unfinished(data.store)
+    key, replays = load_unfinished(player.store)
     if chosen is None:
-        episodes = (episode for pack in data.catalogue.packs() for episode in pack.episodes.values())
+        episodes = (episode for pack in player.catalogue.packs() for episode in pack.episodes.values())
         chosen = next((episode for episode in episodes if key and episode.key == key), None)
     elif chosen.key != key:
         replays = []
     if chosen is None or len(replays) >= len(chosen.levels):
         return None
-    run = EpisodePlaythrough(data, chosen)
+    run = EpisodePlaythrough(player, chosen)
     if replays:
         run.resume(replays)
     else:
         run.skip_to_furthest()
-    return run if run.position or not data.progress_in(chosen.pack).is_beaten(chosen.number) else None
+    return run if run.position or not player.progress_in(chosen.pack).is_beaten(chosen.number) else None

@@ -147,7 +147,7 @@ class PlayerData:
             return "Skipped, not passed yet"
         run = None if mark else self.own_certificate(entry)
         certified = f"Certified: {seconds_text(run.end_tick)} s" if run else ""
-        return progress.reached(entry, mark) or certified or "Not passed yet"
+        return progress.result_sentence(entry, mark) or certified or "Not passed yet"
 
     def own_certificate(self, entry: Entry) -> Replay | None:
         """The certificate to the exit of a level that the player has made. Lists ask it for every picture."""
@@ -192,41 +192,41 @@ OF_A_LEVEL = NEW_BEST, FIRST_PASS, NEW_MEDAL, NEW_ALL_GOLD = "Your best time", "
 EPISODE_BEST = "Your best for this episode"
 
 
-def keep_replay(data: PlayerData, replay: Replay) -> str:
+def keep_replay(player: PlayerData, replay: Replay) -> str:
     """Save a replay, even one that is not the best; a notice about it."""
 
     def work() -> list[str]:
-        data.records.keep_replay(replay)
+        player.records.keep_replay(replay)
         return ["Replay: saved"]
 
-    return save_work(data, work)[-1]
+    return save_work(player, work)[-1]
 
 
-def forget_replay(data: PlayerData, number: int) -> str:
+def forget_replay(player: PlayerData, number: int) -> str:
     """Delete a replay of the records; why that failed, or ''."""
 
     def work() -> list[str]:
-        return [] if data.records.forget_replay(number) else ["This is one of your bests, so it stays"]
+        return [] if player.records.forget_replay(number) else ["This is one of your bests, so it stays"]
 
-    return "".join(save_work(data, work)[-1:])
+    return "".join(save_work(player, work)[-1:])
 
 
-def save_work(data: PlayerData, work: StoreWork) -> list[str]:
+def save_work(player: PlayerData, work: StoreWork) -> list[str]:
     """Save ``work``; gives its notices, then the reason if it could not be written to the disk."""
-    notices, problem = data.store.save(work)
+    notices, problem = player.store.save(work)
     return [*notices, *([f"Not saved yet: {problem}"] if problem else [])]
 
 
-def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:
-    return attempt.replay(entry.title, data.settings.name)
+def replay_of(player: PlayerData, entry: Entry, attempt: Attempt) -> Replay:
+    return attempt.replay(entry.title, player.settings.name)
 
 
-def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
+def save_best(player: PlayerData, entry: Entry, replay: Replay) -> list[str]:
     """Save a level's best and its mark; notices of a better time or medal, and the first pass with all gold."""
     level, body = replay.level_digest, replay.body
-    data.records.level_passed(replay)
-    before = data.marks.of(level, body)
-    now = data.marks.passed(level, replay.final_tick, replay.gold, body)
+    player.records.level_passed(replay)
+    before = player.marks.of(level, body)
+    now = player.marks.passed(level, replay.final_tick, replay.gold, body)
     notices = [FIRST_PASS] if before is None else [NEW_BEST] if now.fastest < before.fastest else []
     if body != "circle":
         return notices
@@ -237,7 +237,7 @@ def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
 
 
 def count_of(
-    data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
+    player: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
 ) -> StoreWork:
     """The change of the counts by an attempt as it is now: passed, killed or ended; an assisted pass gets its mark."""
     level, gold = entry.digest, attempt.gold
@@ -245,16 +245,16 @@ def count_of(
     ticks = attempt.simulation.tick if attempt.outcome == "running" else max(attempt.ended_tick, 0)
 
     def work() -> list[str]:
-        data.statistics.attempt_ended(level, killer=killer, passed=passed, ticks=ticks, gold=gold)
+        player.statistics.attempt_ended(level, killer=killer, passed=passed, ticks=ticks, gold=gold)
         if helped:
-            data.marks.passed(level, ticks, gold, progress.WITH_HELP)
+            player.marks.passed(level, ticks, gold, progress.WITH_HELP)
         return []
 
     return work
 
 
 def note_progress(
-    data: PlayerData,
+    player: PlayerData,
     episode: Episode,
     position: int,
     replays: Sequence[Replay] = (),
@@ -266,13 +266,13 @@ def note_progress(
 
     ``replays``: those of the episode up to it, if no level was skipped. Raises sqlite3.Error.
     """
-    following = data.catalogue.following(episode)
+    following = player.catalogue.following(episode)
     goal = following.number if following else None
     levels = len(episode.levels)
-    data.progress_in(episode.pack).level_passed(
+    player.progress_in(episode.pack).level_passed(
         (episode.number, position), levels=levels, following=goal, legitimate=legitimate
     )
     if legitimate and kept and position < levels - 1:
-        save_unfinished(data.store, episode.key, replays)
+        save_unfinished(player.store, episode.key, replays)
     elif legitimate and kept:
-        save_unfinished(data.store, following.key if following else "")
+        save_unfinished(player.store, following.key if following else "")

@@ -56,8 +56,8 @@ class Playthrough:
     next_label = "next level"
     lead, deaths = b"", 0
 
-    def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
-        self.data = data
+    def __init__(self, player: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
+        self.player = player
         self.entry = entry
         self.body: Body = body
         self.practice_mode = practice_mode
@@ -85,7 +85,7 @@ class Playthrough:
 
     def beginning(self) -> tuple[Level, bytes]:
         """The level at its start, and the inputs of its author's run, if there is one: both decide where texts lie."""
-        run = self.data.catalogue.author_run(self.entry)
+        run = self.player.catalogue.author_run(self.entry)
         return self.level, run.inputs if run else b""
 
     @property
@@ -95,38 +95,38 @@ class Playthrough:
 
     def next_par(self) -> str:
         """The next medal and its time, in words; "" before the first pass, after the last medal, in practice."""
-        mark = self.data.marks.of(self.entry.digest)
+        mark = self.player.marks.of(self.entry.digest)
         return "" if self.pars is None or self.practice_mode or mark is None else next_par(self.pars, mark)
 
     @property
     def show_tutorial(self) -> bool:
         """Whether the keys are explained at the level's start: only to a player who has passed no level yet."""
-        return not self.data.statistics.played().passes
+        return not self.player.statistics.played().passes
 
     def ghosts(self) -> list[PacedRun]:
         """Runs to race against; read again only when they change, since every retry asks."""
-        best = self.data.records.level_best(self.entry.digest, self.body)
+        best = self.player.records.level_best(self.entry.digest, self.body)
         medal = self._raced_medal()
         state = self.entry.digest, best.id if best else -1, medal
         if state != self._ghosts[0]:
-            author = self.data.catalogue.author_run(self.entry) if medal else None
+            author = self.player.catalogue.author_run(self.entry) if medal else None
             if author and self.pars:
                 # The certificate, slowed down so that it just wins the medal.
                 runs = [PacedRun(author.inputs, author.final_tick / self.pars.par(medal))]
             else:
-                replay = self.data.records.replay(best.id) if best else None
+                replay = self.player.records.replay(best.id) if best else None
                 runs = [PacedRun(replay.inputs)] if replay else []
             self._ghosts = state, runs
         return self._ghosts[1]
 
     def _raced_medal(self) -> str:
         """The medal at whose pace the ghost runs; "" if the ghost is the player's best run."""
-        medal_ghost, pars = self.data.settings.ghost, self.pars
+        medal_ghost, pars = self.player.settings.ghost, self.pars
         if medal_ghost == "best" or pars is None:
             return ""
         if medal_ghost != "next":
             return medal_ghost
-        mark = self.data.marks.of(self.entry.digest)
+        mark = self.player.marks.of(self.entry.digest)
         return pars.next_medal(mark.fastest) if mark else "silver"
 
     def passed(self, attempt: Attempt) -> list[str]:
@@ -136,8 +136,8 @@ class Playthrough:
     @property
     def shows_messages(self) -> bool:
         """Whether the level shows its messages: not after a pass, nor if the player does not want them."""
-        marks, level = self.data.marks, self.entry.digest
-        return self.data.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
+        marks, level = self.player.marks, self.entry.digest
+        return self.player.settings.level_texts and not marks.is_passed(level) and marks.of(level, self.body) is None
 
     def messages(self) -> tuple[LevelMessage, ...]:
         if not self.shows_messages:
@@ -148,13 +148,13 @@ class Playthrough:
 
     def died(self, attempt: Attempt) -> None:
         """Called once per death: counts it."""
-        save_work(self.data, count_of(self.data, self.entry, attempt, killer=attempt.killer))
+        save_work(self.player, count_of(self.player, self.entry, attempt, killer=attempt.killer))
 
     def gave_up(self, attempt: Attempt) -> None:
         """Called when an attempt is left or restarted: counts it as ended by the player, unless it was over already."""
         if attempt.outcome == "running" and attempt.simulation.tick:
             # A restart must not wait for the disk.
-            self.data.store.defer(count_of(self.data, self.entry, attempt))
+            self.player.store.defer(count_of(self.player, self.entry, attempt))
 
     def restart(self) -> bool:
         """Called when the level restarts; whether the level has changed, as its file did.
@@ -182,14 +182,14 @@ class LevelPlaythrough(Playthrough):
 
     def __init__(
         self,
-        data: PlayerData,
+        player: PlayerData,
         entry: Entry,
         *,
         body: Body = "circle",
         practice_mode: bool = False,
         following: Sequence[Entry] = (),
     ) -> None:
-        super().__init__(data, entry, body=body, practice_mode=practice_mode)
+        super().__init__(player, entry, body=body, practice_mode=practice_mode)
         self._following = following
         self._levels: Sequence[NamedLevel] = [entry.named]
         self._stamp = file_stamp(Path(entry.named.file))
@@ -214,7 +214,7 @@ class LevelPlaythrough(Playthrough):
         return bool(self._ahead())
 
     def _ahead(self) -> list[Entry]:
-        return [entry for entry in self._following if not self.data.lock_of(entry)]
+        return [entry for entry in self._following if not self.player.lock_of(entry)]
 
     def advance(self) -> Navigation:
         """The next level of the list that can be played."""
@@ -229,31 +229,31 @@ class LevelPlaythrough(Playthrough):
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save the results of a passed attempt; notices about them."""
-        count = count_of(self.data, self.entry, attempt, passed=True)
+        count = count_of(self.player, self.entry, attempt, passed=True)
         entry = self.entry
-        replay = None if attempt.assisted else replay_of(self.data, entry, attempt)
+        replay = None if attempt.assisted else replay_of(self.player, entry, attempt)
 
         def work() -> list[str]:
             count()
-            notices = save_best(self.data, entry, replay) if replay else []
+            notices = save_best(self.player, entry, replay) if replay else []
             if not self.practice_mode:
                 self._open_following(entry)
             return notices
 
-        return save_work(self.data, work)
+        return save_work(self.player, work)
 
     def _open_following(self, entry: Entry) -> None:
         """If the episode is at this level, move on to the next level that is not passed."""
-        data, episode = self.data, self.data.catalogue.episode_of(entry)
-        if episode is None or entry.position is None or data.episode_state(episode) != UNLOCKED:
+        player, episode = self.player, self.player.catalogue.episode_of(entry)
+        if episode is None or entry.position is None or player.episode_state(episode) != UNLOCKED:
             return
-        if data.beaten_in(episode) != entry.position:
+        if player.beaten_in(episode) != entry.position:
             return
         position = entry.position[1]
         while True:
-            note_progress(data, episode, position, kept=load_unfinished(data.store)[0] in {"", episode.key})
+            note_progress(player, episode, position, kept=load_unfinished(player.store)[0] in {"", episode.key})
             position += 1
-            if position == len(episode.levels) or not data.marks.is_passed(episode.levels[position].digest):
+            if position == len(episode.levels) or not player.marks.is_passed(episode.levels[position].digest):
                 return
 
 
@@ -261,9 +261,9 @@ class FilePlaythrough(LevelPlaythrough):
     """The levels of a file, one after the other; after the last one the first again."""
 
     def __init__(
-        self, data: PlayerData, levels: Sequence[NamedLevel], *, body: Body = "circle", practice_mode: bool = False
+        self, player: PlayerData, levels: Sequence[NamedLevel], *, body: Body = "circle", practice_mode: bool = False
     ) -> None:
-        super().__init__(data, Entry(levels[0], YOURS), body=body, practice_mode=practice_mode)
+        super().__init__(player, Entry(levels[0], YOURS), body=body, practice_mode=practice_mode)
         self._levels = levels
 
     @property

@@ -247,7 +247,7 @@ def next_par(pars: Pars, mark: Mark) -> str:
     return f"{medal.capitalize()} medal: {seconds_text(par)} s, {missing} s to go" if medal else ""
 
 
-def reached(entry: Entry, mark: Mark | None) -> str:
+def result_sentence(entry: Entry, mark: Mark | None) -> str:
     """The player's fastest time in a level and most gold in a pass, as a sentence; "" without a mark."""
     if mark is None:
         return ""
@@ -266,7 +266,7 @@ def worst_medal(entries: Iterable[Entry], marks: dict[str, Mark]) -> str:
     return order[max(medals, default=len(MEDALS))]
 
 
-def tally(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:
+def count_results(entries: Iterable[Entry], marks: dict[str, Mark], helped: Collection[str] = ()) -> Tally:
     """Count the results over levels. ``helped``: digests of those passed with help."""
     pairs = [(entry, marks.get(entry.digest)) for entry in entries]
     medals = [medal_of(*pair) for pair in pairs]

@@ -108,7 +108,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
         connection.text_factory = _text
         if source is not None:
             _copy(source, connection)
-        with bounded(connection):
+        with bound_queries(connection):
             _check_file(connection, name)
             _check_tables(connection)
         if connection.execute("PRAGMA journal_mode").fetchone()[0] != "wal":
@@ -128,7 +128,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
 
 
 @contextmanager
-def bounded(connection: sqlite3.Connection) -> Iterator[None]:
+def bound_queries(connection: sqlite3.Connection) -> Iterator[None]:
     """Bound the work of queries on a file, whatever its pages say. Raises sqlite3.DatabaseError beyond the bound."""
     steps = count(1)
     connection.set_progress_handler(lambda: next(steps) > MAX_STEPS, 1_000_000)

@@ -46,7 +46,7 @@ from ninja_game.runs.recording_reader import Unreadable, recordings_in
 from ninja_game.runs.trace import trace_recording
 from ninja_game.runs.trace_files import FiledTrace
 from ninja_game.runs.verify import with_demands
-from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, results_of, workers
+from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, open_workers, results_of
 from ninja_game.runtime import cores
 from ninja_game.sim.level import Level
 
@@ -126,7 +126,7 @@ def _verify_all(
         if not cluster and not second:
             yield from _record_results(zip([first], [_verify(options, first)], strict=True), log)
             return
-        pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
+        pool: Workers = stack.enter_context(open_workers(jobs or cores(), processes=processes, cluster=cluster))
         all_jobs = chain(filter(None, (first, second)), batches)
         try:
             verify, read = (_verify_as_text, results_from_text) if cluster else (_verify, lambda results, _: results)
@@ -265,7 +265,7 @@ def trace_all(
         return
     # Compiled code leaves the interpreter's lock, plain code needs processes.
     processes = choose_memory(memory) == "plain"
-    with workers(jobs or cores(), processes=processes) as pool:
+    with open_workers(jobs or cores(), processes=processes) as pool:
         for job, results in results_of(
             pool, partial(_trace_job, options), chain([first], iter(lambda: list(islice(rest, TRACES)), []))
         ):

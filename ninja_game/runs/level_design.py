@@ -77,7 +77,7 @@ def design_findings(counts: Design, file: str = "") -> Iterator[PackFinding]:
             yield pack_finding(code, file, value=value, bound=bound)
 
 
-def design(level: Level, inputs: bytes) -> Design:
+def measure_design(level: Level, inputs: bytes) -> Design:
     """The counts of a level, with a run that passes it (``Recording.playback``).
 
     Raises LevelError for a level that cannot be played.
@@ -95,7 +95,7 @@ def design(level: Level, inputs: bytes) -> Design:
         evenness(gold, room),
         evenness(mines, room),
         most_bays(level),
-        unused(level, ground, path),
+        unused_share(level, ground, path),
         float(np.abs(np.diff(path, axis=0)).sum()) / max(CELL, float(to_exit.min(initial=np.inf))),
         float(np.mean(clearance(run) < _NEAR)),
     )
@@ -132,7 +132,7 @@ def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> 
     by_touch = _RADII.keys() - GUNS.keys()
     moving = [rows[::5] for kind, rows in zip(still.kinds, still.objects.T, strict=True) if kind in by_touch]
     reached = [np.column_stack([rows["x"], rows["y"]]) for rows in moving]
-    lanes = [lane(ground, record) for record in level.objects if record.kind in _LANES and well_formed(record)]
+    lanes = [danger_lane(ground, record) for record in level.objects if record.kind in _LANES and well_formed(record)]
     reached += [np.array(list(cells)).reshape(-1, 2) for cells in lanes]
     near = distances(points, np.concatenate([places_of_kind(level, kinds.MINE), *reached])) < BAIT
     for kind in (kinds.TURRET, kinds.LAUNCHER):
@@ -141,7 +141,7 @@ def in_danger(level: Level, ground: Ground, still: RunTrace, points: Points) -> 
     return near
 
 
-def lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
+def danger_lane(ground: Ground, record: ObjectSpec) -> Iterator[tuple[float, float]]:
     """The places where a thwump strikes or a guard runs: steps of half a cell up to the rock."""
     x, y = record.values[:2]
     is_guard = record.kind == kinds.FLOOR_GUARD
@@ -192,7 +192,7 @@ def _apart(cells: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
     return kept
 
 
-def unused(level: Level, ground: Ground, path: Points) -> float:
+def unused_share(level: Level, ground: Ground, path: Points) -> float:
     """The share of the cells in reach that are far from every object and from the run."""
     if not ground.cells:
         return 0.0

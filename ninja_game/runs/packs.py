@@ -17,7 +17,7 @@ from ninja_game.formats.pack.pack import CERTIFICATES, INDEX, PARS, Pack, certif
 from ninja_game.formats.pack.pars import DIFFICULTY_GRADES, DIGEST_DIGITS, Pars
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.levels.findings import PackFinding, pack_finding
-from ninja_game.runs.level_design import design, design_findings
+from ninja_game.runs.level_design import design_findings, measure_design
 from ninja_game.runs.problems import level_problems
 from ninja_game.runs.verify import Verdict, verify_recording, with_demands
 from ninja_game.sim.kinds import GOLD
@@ -55,7 +55,7 @@ class Certificate:
         return problems
 
 
-def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
+def read_pack_certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     """The certificate of a level file, or None. Raises ReplayError, or another NinjaGameError, if it cannot be read."""
     name = pack.certificate(file, kind)
     if name is None:
@@ -70,7 +70,7 @@ def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
 def sound_certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     """The certificate of a level file if it certifies the level, else None."""
     with suppress(NinjaGameError):
-        run = certificate(pack, file, kind)
+        run = read_pack_certificate(pack, file, kind)
         return run if run and not run.problems else None
     return None
 
@@ -91,11 +91,11 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     """The pars of every level file with a sound certificate to the exit, one after another.
 
     Valid entries of the pack's table are not measured again. ``tries``: as of ``difficulty``, 0 for no difficulty.
-    Raises as ``certificate`` does.
+    Raises as ``read_pack_certificate`` does.
     """
     known_pars = pack.read_pars()
     for file, named in pack.levels.items():
-        run, gold_run = certificate(pack, file, "exit"), certificate(pack, file, "gold")
+        run, gold_run = read_pack_certificate(pack, file, "exit"), read_pack_certificate(pack, file, "gold")
         if run is None or run.problems:
             continue
         pars = Pars(
@@ -166,8 +166,8 @@ def _findings(pack: Pack, *, with_design: bool, with_gold: bool) -> Iterator[Pac
         yield from _pars_findings(pack)
     if all_certify and with_design:
         for file in pack.levels:
-            if run := certificate(pack, file, "exit"):
-                counts = design(run.level, run.recording.inputs[: run.verdict.ticks])
+            if run := read_pack_certificate(pack, file, "exit"):
+                counts = measure_design(run.level, run.recording.inputs[: run.verdict.ticks])
                 yield from design_findings(counts, file)
 
 
@@ -221,7 +221,7 @@ def _certificate_findings(pack: Pack) -> Iterator[PackFinding]:
     for file in pack.levels:
         for kind in RUN_KINDS:
             try:
-                run, name = certificate(pack, file, kind), certificate_name(file, kind)
+                run, name = read_pack_certificate(pack, file, kind), certificate_name(file, kind)
                 if run:
                     yield from (pack_finding("certificate", name, why=problem) for problem in run.problems)
                 elif kind == "exit":

@@ -188,7 +188,7 @@ Workers: TypeAlias = Local | Cluster
 
 
 @contextmanager
-def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterator[Workers]:
+def open_workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterator[Workers]:
     """Workers for a while: of the cluster at this address, else ``count`` threads or processes."""
     pool: Workers = Cluster(cluster) if cluster else Local(count, processes=processes)
     try:

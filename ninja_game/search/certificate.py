@@ -209,7 +209,7 @@ def rows_of(inputs: bytes) -> list[Hold]:
     return [(keys, len(list(ticks))) for keys, ticks in groupby(keys & KEYS_DOWN for keys in inputs)]
 
 
-def playback(rows: list[Hold]) -> bytes:
+def inputs_of_holds(rows: list[Hold]) -> bytes:
     """Turn rows of keys into inputs, with triggers where the jump key goes down."""
     return with_press_bits([keys for keys, ticks in rows for _ in range(ticks)])
 
@@ -228,8 +228,8 @@ def smooth_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int 
             longest += 1
         else:
             rows = merged
-    run = run_level(level, playback(rows).ljust(limit, b"\0"), body=body)
-    return playback(rows).ljust(limit, b"\0")[: run.ticks]
+    run = run_level(level, inputs_of_holds(rows).ljust(limit, b"\0"), body=body)
+    return inputs_of_holds(rows).ljust(limit, b"\0")[: run.ticks]
 
 
 def _without_one(rows: list[Hold], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Hold] | None:
@@ -241,8 +241,8 @@ def _without_one(rows: list[Hold], longest: int, level: Level, body: Body, gold:
             if not 0 <= neighbour < len(rows):
                 continue
             keys = rows[neighbour][0]
-            changed = rows_of(playback([*rows[:index], (keys, ticks), *rows[index + 1 :]]))
-            run = run_level(level, playback(changed).ljust(limit, b"\0")[:limit], body=body)
+            changed = rows_of(inputs_of_holds([*rows[:index], (keys, ticks), *rows[index + 1 :]]))
+            run = run_level(level, inputs_of_holds(changed).ljust(limit, b"\0")[:limit], body=body)
             if run.outcome == "exit" and run.gold >= gold:
-                return rows_of(playback(changed)[: run.ticks])
+                return rows_of(inputs_of_holds(changed)[: run.ticks])
     return None

@@ -121,7 +121,7 @@ def points_at(places: NDArray[np.float64]) -> NDArray[np.int64]:
     return points
 
 
-def widened(field: DistanceField) -> DistanceField:
+def widen(field: DistanceField) -> DistanceField:
     """Add values for impassable points at most three beside passable ones: the ninja may rest between points."""
     grid = field.reshape(_DOWN, ACROSS)
     for _ in range(3):
@@ -219,52 +219,52 @@ class Heuristics:
 
         Closed locked doors can be passed at a high cost.
         """
-        dear = self._closed(switch_state, DOOR_COST / 4)
-        careful = self._careful(dear.copy(), switch_state)
+        costly = self._closed(switch_state, DOOR_COST / 4)
+        careful = self._careful(costly.copy(), switch_state)
         fields = [self._field(careful, [(*place, 0.0)]) for place in self.gold_places]
-        fields.append(self._field(dear, self._exit_sources(switch_state, dear)))
-        return np.array([widened(field) for field in fields], np.float32)
+        fields.append(self._field(costly, self._exit_sources(switch_state, costly)))
+        return np.array([widen(field) for field in fields], np.float32)
 
     def field_to(self, place: tuple[float, float], switch_state: int, x: float, y: float) -> DistanceField:
         """Ticks from every point to a place, by way of the switches that a ninja at (x, y) must touch first."""
         costs = self._careful(self._closed(switch_state, 0.0), switch_state)
-        dear = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
-        return self._toward([(*place, 0.0)], costs, dear, switch_state, point_at(x, y))
+        costly = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
+        return self._toward([(*place, 0.0)], costs, costly, switch_state, point_at(x, y))
 
     def field(self, switch_state: int, x: float, y: float) -> DistanceField:
         """Ticks from every point to the exit, by way of the switches that a ninja at (x, y) must touch first."""
         costs = self._closed(switch_state, 0.0)
-        dear = self._closed(switch_state, DOOR_COST)
-        return self._toward(self._exit_sources(switch_state, dear), costs, dear, switch_state, point_at(x, y))
+        costly = self._closed(switch_state, DOOR_COST)
+        return self._toward(self._exit_sources(switch_state, costly), costs, costly, switch_state, point_at(x, y))
 
     def may_leave(self, switch_state: int, x: float, y: float) -> bool:
         """Whether a ninja at (x, y) can reach an open exit without opening a door, as far as the fields know."""
         places = [(e.x, e.y, 0.0) for bit, e in enumerate(self.exits) if bit < MAX_BITS and switch_state >> bit & 1]
-        field = widened(self._field(self._closed(switch_state, 0.0), places))
+        field = widen(self._field(self._closed(switch_state, 0.0), places))
         return bool(field[point_at(x, y)] < UNREACHED)
 
-    def _exit_sources(self, switch_state: int, dear: Costs) -> list[FieldSource]:
+    def _exit_sources(self, switch_state: int, costly: Costs) -> list[FieldSource]:
         """The open exits, and the switches of the others with the distance from there on as their value."""
         sources = []
         for bit, exit_ in enumerate(self.exits):
             if bit < MAX_BITS and switch_state >> bit & 1:
                 sources.append((exit_.x, exit_.y, 0.0))
             else:
-                home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
+                home = widen(self._field(costly, [(exit_.x, exit_.y, 0.0)]))
                 rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), _MOST_AFTER_SWITCH)
                 sources.append((exit_.switch_x, exit_.switch_y, rest + _EXIT_SWITCH_TICKS))
         return sources
 
     def _toward(
-        self, sources: list[FieldSource], costs: Costs, dear: Costs, switch_state: int, here: int
+        self, sources: list[FieldSource], costs: Costs, costly: Costs, switch_state: int, here: int
     ) -> DistanceField:
         """Make the field of some places, by way of the switches of the locked doors between them and a point."""
         visited: set[int] = set()
         while True:
-            field = widened(self._field(costs, sources))
+            field = widen(self._field(costs, sources))
             if field[here] < UNREACHED:
                 return field
-            imagined = widened(self._field(dear, sources))
+            imagined = widen(self._field(costly, sources))
             door = self._first_door(imagined, here, switch_state)
             if door is None or door.slot in visited:
                 return imagined

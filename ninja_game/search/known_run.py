@@ -61,15 +61,15 @@ def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
 
 
 @kernel
-def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, noted: int) -> int:
-    """Play the run's keys from the start to before tick ``until``, recorded if ``noted``; gives the ticks played."""
+def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, recorded: int) -> int:
+    """Play the run's keys from the start to before tick ``until``, recorded if ``recorded``; gives the ticks played."""
     w = start.worlds[1]
     copy_words(start.scratch, start.initial)
-    if noted:
+    if recorded:
         note(run, w, switch_slots)
     for tick in range(until):
         step(start.maps[0], w, with_press_bit(run.keys[tick], w.ninja.jump_held))
-        if noted:
+        if recorded:
             note(run, w, switch_slots)
         if w.outcome != OUTCOME_RUNNING:
             return tick + 1

@@ -40,7 +40,7 @@ from ninja_game.search.task import (
     SharedProgress,
     Task,
     WorkPlan,
-    first_run_searches,
+    plan_first_run,
 )
 
 
@@ -121,7 +121,7 @@ class _Job:
         if self.state.task.gold_wanted:
             self._follow(route, inf)
             return
-        for resolution, ticks, turn in first_run_searches(self.number):
+        for resolution, ticks, turn in plan_first_run(self.number):
             if self._over or self.state.runs:
                 return
             if turn:

@@ -211,7 +211,7 @@ class WorkPlan:
     local: int = 8_000_000  #: ticks of each later local search
 
 
-def first_run_searches(job: int) -> Iterator[tuple[Resolution, int, int]]:
+def plan_first_run(job: int) -> Iterator[tuple[Resolution, int, int]]:
     """Resolution, ticks and seed number of the searches for a first run, in turn; each job starts elsewhere."""
     turn = job
     while True:

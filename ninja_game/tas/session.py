@@ -47,10 +47,10 @@ class TasSession:
         self.timeline = Timeline(self.origin.level, opened.track.inputs, body=self.origin.body, memory=memory)
         self.before: Trajectory = EMPTY_TRAJECTORY
         self.before_track = opened.track
-        self._noted = opened.track
+        self._journaled = opened.track
         self._file_differs = False
-        self._stroke_noted = False
-        self._branches_noted = True
+        self._stroke_journaled = False
+        self._branches_journaled = True
         self._undone: Branch | None = None
         self.journal = Journal(folder, self._opened())
         self.timeline.simulate(self.ticks_per_frame)
@@ -151,7 +151,7 @@ class TasSession:
     def end(self) -> None:
         self.history.end()
         self._note()
-        self._stroke_noted = False
+        self._stroke_journaled = False
 
     def undo(self) -> bool:
         self.end()
@@ -194,13 +194,13 @@ class TasSession:
 
     def _note(self) -> None:
         """Append the changes to the journal. Changes that could not be written become part of the next line."""
-        if self.track == self._noted:
+        if self.track == self._journaled:
             return
-        change = edit_as_json(self._noted, self.track)
+        change = edit_as_json(self._journaled, self.track)
         self._credit()
-        if self.journal.note(change | {"goes_on": True} if self._stroke_noted else change):
-            self._noted = self.track
-            self._stroke_noted = self.history.in_stroke
+        if self.journal.note(change | {"goes_on": True} if self._stroke_journaled else change):
+            self._journaled = self.track
+            self._stroke_journaled = self.history.in_stroke
 
     # --- branches ---
 
@@ -270,7 +270,7 @@ class TasSession:
     def _change_branches(self, change: dict[str, Any]) -> None:
         """Make a change given in the journal's words, and write it there."""
         self.branches.do(change)
-        self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
+        self._branches_journaled = self.journal.note(change if self._branches_journaled else self.branches.as_json())
 
     def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:
         """An input track (None: the present one) as a recording, for comparisons and searches."""
@@ -305,5 +305,5 @@ class TasSession:
         self.branches, self.beside = run.branches, list(run.beside)
         # The program may have crashed after writing the file, and before starting the journal again.
         self._file_differs = self.file.path is not None and digest_of_file(self.file.path) != self.file.digest
-        self._noted = self.track
+        self._journaled = self.track
         self._follow()

@@ -54,7 +54,7 @@ def is_prepared() -> bool:
     return not compiled_available() or has_compiled_twin(trace_world) or prefers_plain()
 
 
-def prepare(run: Recording) -> None:
+def prepare_rules(run: Recording) -> None:
     """Load or compile the rules that the TAS editor needs for a run in this process."""
     from ninja_game.simulation import Simulation
     from ninja_game.tas.timeline import Timeline
@@ -79,7 +79,7 @@ class OpeningScreen(Screen):
         self._waited_ms = 0
         self._shown = "", ""
         before_compiling.append(self._note_compiling)
-        self._thread = run_in_background(lambda: prepare(run), self._note_problem)
+        self._thread = run_in_background(lambda: prepare_rules(run), self._note_problem)
 
     def _note_compiling(self) -> None:
         self._compiles = True

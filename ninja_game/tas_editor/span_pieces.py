@@ -27,7 +27,7 @@ class SpanPieces:
         self._goal_alone = task.goal if task.rest else ""
         self.pieces: tuple[RunPiece, ...] = ()
         self._cut_track: InputTrack | None = None  #: the run that was cut into these pieces
-        self._asked_track: InputTrack | None = None  #: the run whose splits were last asked for
+        self._requested_track: InputTrack | None = None  #: the run whose splits were last asked for
         self._splits = NewestJob[Cut, Splits](lambda cut: (cut[0], run_splits(cut[1], tuple(GOALS)).splits))
 
     def refresh(self) -> None:
@@ -40,6 +40,6 @@ class SpanPieces:
             if self._goal_alone and self._span[1] <= len(track):
                 pieces.insert(1, RunPiece(*self._span, WITHOUT_REST, SpanGoal(self._goal_alone)))
             self._cut_track, self.pieces = track, tuple(pieces)
-        elif self._asked_track is not track:
-            self._asked_track = track
+        elif self._requested_track is not track:
+            self._requested_track = track
             self._splits.ask((track, session.recording()))  # in a thread: runs may be long

@@ -223,7 +223,7 @@ class SpanResults:
         return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
 
     @property
-    def in_vain(self) -> bool:
+    def found_nothing(self) -> bool:
         """Whether an earlier end was searched for a while without a gain, or all there is."""
         search, task = self.search, self.task
         patience = STALLED if any(run.missed_by is None for run in self.better) else PATIENCE

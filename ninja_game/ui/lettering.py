@@ -104,7 +104,7 @@ class Glyph(NamedTuple):
 
 
 @lru_cache(maxsize=1024)
-def glyph(character: str) -> Glyph | None:
+def glyph_of(character: str) -> Glyph | None:
     """A letter, composed of its parts where it has accents; None for one without strokes."""
     if character in GLYPHS:
         width, path = GLYPHS[character]
@@ -195,14 +195,14 @@ class StrokeFont:
         """Width of a text, px."""
         if not text:
             return 0
-        letters = [glyph(character) for character in text]
+        letters = [glyph_of(character) for character in text]
         if None in letters:
             return self._fallback.size(text)[0] + 2
         return ceil(sum(self._advance(letter) for letter in letters if letter) - LETTER_SPACING * self._unit + 2)
 
     def _draw(self, character: str, colour: tuple[int, int, int, int], phase: int) -> pygame.Surface:
         """A letter on its own sheet, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""
-        letter = glyph(character)
+        letter = glyph_of(character)
         assert letter is not None  # noqa: S101 - other texts are drawn as a whole
         # One more unit to the left and right: some strokes reach beyond their glyph's width.
         size = ceil((letter.width + 2) * self._unit + 2 * self._pad) + 1, self.height
@@ -224,7 +224,7 @@ class StrokeFont:
         ink = pygame.Color(colour)
         picture = pygame.Surface((max(1, self.width(text)), self.height), pygame.SRCALPHA)
         picture.fill((ink.r, ink.g, ink.b, 0))
-        letters = [(character, glyph(character)) for character in text]
+        letters = [(character, glyph_of(character)) for character in text]
         if any(letter is None for _, letter in letters):
             # pygame refuses a text of characters without width; a space behind it changes no picture.
             picture.blit(self._fallback.render(f"{text} ", True, ink), (1, round(self._baseline_top * 0.2)))

@@ -26,7 +26,7 @@ from ninja_game.view.effects.particles import Particles
 from ninja_game.view.ninja.ninja_animation import NinjaAnimation, draw_ninja, draw_ragdoll
 from ninja_game.view.ninja.ragdoll import Ragdoll
 from ninja_game.view.sprites.backdrop import Backdrop
-from ninja_game.view.sprites.drawing import DrawTarget, drawing, shared_book
+from ninja_game.view.sprites.drawing import DrawTarget, drawn_within, shared_book
 from ninja_game.view.sprites.moving_sprites import draw_moving, draw_pulses
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 from ninja_game.view.sprites.sketch import Sketch
@@ -54,7 +54,7 @@ _CUE_SHAPES: dict[str, list[Point]] = {
 }
 
 
-@drawing(10)
+@drawn_within(10)
 def cue(s: Sketch, p: Palette, warning: str) -> None:
     """A disc with the shape of a warning."""
     s.disc(p.outline, 0, 0, 9)

@@ -8,7 +8,7 @@ from typing import Any
 from pygame import display
 from pygame.host import LINK  # type: ignore[import-not-found]
 
-from ninja_game.play.lab.figure import FIGURE
+from ninja_game.play.lab.figure import FIGURE_AREA
 from ninja_game.play.lab.screen import FigurePicture
 from ninja_game.play.replay.playback import RunClock
 from ninja_game.ui.widgets import Choice, Slider
@@ -19,7 +19,7 @@ class PageFigure:
 
     def __init__(self, page: Any, name: str, width: int, palette: str) -> None:
         LINK.page = page
-        self._picture = FigurePicture(name, width / FIGURE[2], palette)
+        self._picture = FigurePicture(name, width / FIGURE_AREA[2], palette)
         self.figure = self._picture.figure
         self.area = tuple(self._picture.area)
         self._clock = RunClock()
@@ -71,7 +71,7 @@ class PageFigure:
             return
         left, top, zoom = self.figure.view
         act = self.figure.press if what == "press" else self.figure.drag
-        act(left + x * FIGURE[2] / zoom, top + y * FIGURE[3] / zoom)
+        act(left + x * FIGURE_AREA[2] / zoom, top + y * FIGURE_AREA[3] / zoom)
 
     def reset(self, *, demonstrate: bool) -> None:
         """Reset the figure; its demonstration runs if that is wanted."""

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ninja_game.budget import PAGE_BUDGET, TURN_WORK
 from ninja_game.errors import BudgetError, NinjaGameError
-from ninja_game.formats.links import is_link, watched, watched_colours
+from ninja_game.formats.links import is_link, watched_colours, watched_names
 from ninja_game.play.app import App
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen
@@ -60,7 +60,7 @@ class PageServices:
 
     def watched(self, fragment: str) -> list[str]:
         """The files of this site that a link names, relative to the page. Raises LinkError."""
-        return watched(fragment)
+        return watched_names(fragment)
 
     def open_link(self, fragment: str, texts: Iterable[str]) -> str:
         """Open the part of the address after its #, over the main menu; "" or the error.

@@ -9,7 +9,16 @@ from ninja_game.document import History
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
 from ninja_game.editor.palette import object_of_type, placed, remade
-from ninja_game.editor.specs import PROPERTIES, carried, object_type_name, points, properties, settled, with_word, word
+from ninja_game.editor.specs import (
+    PROPERTIES_BY_KIND,
+    carried,
+    object_type_name,
+    points,
+    properties,
+    settled,
+    with_word,
+    word,
+)
 from ninja_game.editor.stamp import (
     Selection,
     Stamp,
@@ -285,7 +294,7 @@ def test_the_whole_level_flipped_twice_is_the_same_level() -> None:
 
 
 def test_properties_say_what_the_records_words_say() -> None:
-    for kind, some in PROPERTIES.items():
+    for kind, some in PROPERTIES_BY_KIND.items():
         for one in (each for each in SPECS if each.kind == kind):
             for name, (_, words) in some.items():
                 for text in words:

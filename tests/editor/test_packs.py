@@ -18,7 +18,7 @@ from ninja_game.errors import NinjaGameError, PackError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.pack import Pack, PackFiles
 from ninja_game.levels.findings import level_finding
-from ninja_game.runs.packs import certificate, lint
+from ninja_game.runs.packs import lint, read_pack_certificate
 from ninja_game.runs.problems import level_problems
 from ninja_game.search.certificate import read_certificate
 from ninja_game.search.task import Progress
@@ -270,7 +270,7 @@ def test_what_follows_from_a_problem_is_no_problem_of_its_own(pack: Path) -> Non
     level = Pack(pack).levels["brick.txt"].level
     obstacles = {(level, "exit"): level_finding("unreached-exit")}
     codes = {file: list[str]() for file in ("brick.txt", "mortar.txt", "twin.txt", FIRST)}
-    for finding in ready_pack.problems_of(Pack(pack), obstacles):
+    for finding in ready_pack.problems_of_pack(Pack(pack), obstacles):
         codes.get(finding.file, []).append(finding.code)
     assert codes == {
         "brick.txt": ["single-level", "no-ninja"],
@@ -284,7 +284,7 @@ def test_messages_that_are_never_shown_are_problems_of_the_pack_as_they_are_in_t
     says = f"after 1 s: {'Long ' * 20}| after 1 s: One | after 2 s: Two | lock: Three | trap: Four"
     text = (pack / FIRST).read_text("utf-8")
     (pack / FIRST).write_text(re.sub("(?m)^says: .*", f"says: {says}", text), "utf-8")
-    named, run = Pack(pack).levels[FIRST], certificate(Pack(pack), FIRST, "exit")
+    named, run = Pack(pack).levels[FIRST], read_pack_certificate(Pack(pack), FIRST, "exit")
     assert run
     ours = [finding.odd for finding in lint(Pack(pack)) if finding.file == FIRST and finding.odd]
     theirs = level_problems(named.level, named.says, run.recording.inputs)

@@ -32,7 +32,7 @@ from ninja_game.formats.links import (
     recording_link,
     recordings_in_links,
     replay_link,
-    watched,
+    watched_names,
     write_link,
     write_watch,
 )
@@ -238,15 +238,15 @@ def test_kind_must_fit() -> None:
 )
 def test_only_files_of_the_board_are_watched(names: str) -> None:
     with pytest.raises(LinkError, match="not a link of runs"):
-        watched(f"#watch={names}")
+        watched_names(f"#watch={names}")
 
 
 def test_watch_link_names_the_files_of_runs() -> None:
-    assert watched(write_watch(["0123456789abcdef", "f" * 16])) == [
+    assert watched_names(write_watch(["0123456789abcdef", "f" * 16])) == [
         "replays/0123456789abcdef.txt", "replays/ffffffffffffffff.txt",
     ]  # fmt: skip
-    assert watched("#watch=0123456789abcdef-4") == ["replays/0123456789abcdef.txt"], "with the number of a colour"
-    assert watched(LINK) == []
+    assert watched_names("#watch=0123456789abcdef-4") == ["replays/0123456789abcdef.txt"], "with the number of a colour"
+    assert watched_names(LINK) == []
 
 
 def _changed(link: str, rng: random.Random) -> str:

@@ -9,7 +9,7 @@ from ninja_game import parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.rewards import DeathPenalty, DistanceShaping, ExitReward, reward_terms
+from ninja_game.learn.rewards import DeathPenalty, DistanceShaping, ExitReward, terms_of
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.search.heuristics import FARTHEST, POINTS
 from tests.support.learning import FLOOR, LEVELS, random_actions
@@ -92,4 +92,4 @@ def test_a_restored_world_is_shaped_as_it_would_have_been() -> None:
 @pytest.mark.parametrize("reward", [3, "fame", [ExitReward(), None], [1.0]])
 def test_what_is_not_a_reward_is_refused(reward: Any) -> None:
     with pytest.raises(ArgumentError, match="expected one of"):
-        reward_terms(reward)
+        terms_of(reward)

@@ -158,7 +158,7 @@ def test_a_run_whose_rules_cannot_be_loaded_says_why(
     driver: MenuDriver, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(opening, "is_prepared", lambda: False)
-    monkeypatch.setattr(opening, "prepare", raising(why))
+    monkeypatch.setattr(opening, "prepare_rules", raising(why))
     below = driver.top()
     opening.open_tas_editor(driver.app, load_replays(RUN)[0], [], 0)
     driver.wait(lambda: driver.top() is below)

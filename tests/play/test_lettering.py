@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.ui.canvas import Canvas
-from ninja_game.ui.lettering import GLYPHS, Lettering, StrokeFont, glyph
+from ninja_game.ui.lettering import GLYPHS, Lettering, StrokeFont, glyph_of
 from ninja_game.ui.theme import CLASSIC, Theme, wrapped
 
 
@@ -37,7 +37,7 @@ def test_a_name_of_characters_without_width_is_drawn(text: str) -> None:
 
 def test_strokes_stay_near_their_width() -> None:
     for character in [*GLYPHS, *"áèîõüçŠůŘÿĄłÅØßìĐħ"]:
-        letter = glyph(character)
+        letter = glyph_of(character)
         if letter is not None:
             points = [point for line in letter.lines for point in line]
             assert all(-1.4 <= x <= letter.width + 1.4 and -1 <= y <= 9.3 for x, y in points), character
@@ -53,7 +53,7 @@ def test_width_grows_with_the_text_and_digits_are_alike() -> None:
 def test_letters_with_accents_are_composed_of_strokes() -> None:
     font = StrokeFont(40, bold=False)
     for accented, plain in zip("Žluťoučký", "Zlutoucky", strict=True):
-        assert glyph(accented) is not None
+        assert glyph_of(accented) is not None
         assert font.width(accented) == font.width(plain)
         differs = pygame.image.tobytes(font.render(accented, "black"), "RGBA") != pygame.image.tobytes(
             font.render(plain, "black"), "RGBA"
@@ -63,7 +63,7 @@ def test_letters_with_accents_are_composed_of_strokes() -> None:
 
 def test_text_with_an_unknown_character_is_all_in_one_lettering() -> None:
     font = StrokeFont(20, bold=False)
-    assert glyph("日") is None
+    assert glyph_of("日") is None
     whole = font.render("Level 日", "black")
     assert whole.get_width() == font.width("Level 日")
     start = pygame.Rect(0, 0, font.width("Level"), whole.get_height())
@@ -76,7 +76,7 @@ def test_text_with_an_unknown_character_is_all_in_one_lettering() -> None:
 def test_space_between_small_letters_is_even() -> None:
     """Letters are placed on quarters of a px: the same pair is never a whole px closer than elsewhere."""
     font = StrokeFont(8.3, bold=False)
-    step = sum(font._advance(letter) for letter in map(glyph, "l ") if letter)
+    step = sum(font._advance(letter) for letter in map(glyph_of, "l ") if letter)
     row = font.render("l " * 20, "black")
     ink = [sum(row.get_at((x, y)).a for y in range(row.get_height())) for x in range(row.get_width())]
     offsets = []

@@ -179,7 +179,7 @@ def test_own_records_whose_pages_lead_in_circles_are_put_aside(tmp_path: Path, m
 
 def test_an_error_without_a_code_of_sqlite_stays_what_it_is() -> None:
     db, error = sqlite3.connect(":memory:"), sqlite3.OperationalError("Could not decode to UTF-8")
-    with closing(db), pytest.raises(sqlite3.OperationalError, match="decode"), schema.bounded(db):
+    with closing(db), pytest.raises(sqlite3.OperationalError, match="decode"), schema.bound_queries(db):
         raise error
 
 

@@ -8,7 +8,7 @@ import pytest
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.levels.episodes import Entry
 from ninja_game.player.playthrough import LevelPlaythrough
-from ninja_game.player.progress import Mark, has_all_gold, medal_of, tally, worst_medal
+from ninja_game.player.progress import Mark, count_results, has_all_gold, medal_of, worst_medal
 from ninja_game.sim.level import Body
 from tests.support.players import EXIT_TICK, deadly_level, entry, played, player_data, short_level
 
@@ -75,7 +75,7 @@ def test_levels_without_pars_have_marks_and_no_medal(tmp_path: Path) -> None:
 def test_tally_counts_each_level_by_its_best_medal() -> None:
     first, second, third = with_pars(), with_pars(gold=1), entry(deadly_level())
     marks = {first.digest: Mark(EXIT_TICK, 0), second.digest: Mark(60, 1)}
-    assert tally([first, second, third], marks) == (3, 2, {"author": 1, "gold": 0, "silver": 0, "bronze": 1}, 1)
+    assert count_results([first, second, third], marks) == (3, 2, {"author": 1, "gold": 0, "silver": 0, "bronze": 1}, 1)
     assert worst_medal([first, second], marks) == "bronze"
     assert worst_medal([first, third], marks) == ""
 

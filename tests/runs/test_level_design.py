@@ -4,7 +4,7 @@ import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.runs.level_design import BOUNDS, Design, design, design_findings
+from ninja_game.runs.level_design import BOUNDS, Design, design_findings, measure_design
 from ninja_game.runs.packs import lint
 from ninja_game.sim.inputs import Input
 from ninja_game.sim.level import Level
@@ -28,7 +28,7 @@ MINES = " ".join(f"{10 + k / 2},10.25" for k in range(8))
 
 
 def counts(*lines: str, rows: dict[int, str] | None = None) -> Design:
-    return design(level(*lines, row="@.............................X", rows=rows), RIGHT)
+    return measure_design(level(*lines, row="@.............................X", rows=rows), RIGHT)
 
 
 def hall(*lines: str, rows: dict[int, str] | None = None) -> Design:
@@ -48,7 +48,7 @@ def test_gold_in_danger_is_bait() -> None:
 def test_every_kind_of_hazard_makes_bait(danger: str) -> None:
     assert hall(f"gold {GROUP}", danger).bait
     behind = dict.fromkeys(range(1, 12), "..................#") | {12: "@.................#...........X"}
-    assert not design(
+    assert not measure_design(
         level("exit 31,12 switch 2.5,12", "gold 28.25,2.25", danger, row=behind[12], rows=behind), RIGHT
     ).bait
 
@@ -84,9 +84,9 @@ def test_space_that_nobody_uses() -> None:
 
 
 def test_a_trip_there_and_back_is_a_detour() -> None:
-    there = design(level("exit 31,12 switch 2.5,12", row="@.............................X"), RIGHT)
+    there = measure_design(level("exit 31,12 switch 2.5,12", row="@.............................X"), RIGHT)
     keys = bytes([Input.RIGHT] * 100 + [Input.LEFT] * 100)
-    back = design(level("exit 3,12 switch 30.5,12", row="@.X............................"), keys)
+    back = measure_design(level("exit 3,12 switch 30.5,12", row="@.X............................"), keys)
     assert there.detour < 1.5 < back.detour
 
 

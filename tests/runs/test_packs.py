@@ -14,7 +14,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.runs.packs import certificate, lint
+from ninja_game.runs.packs import lint, read_pack_certificate
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.verify import STRICT
 from tests.support.own_pack import PACK
@@ -182,7 +182,7 @@ def test_certificates_are_run(pack: Path) -> None:
 
 @pytest.mark.parametrize("field", STRICT)
 def test_a_certificate_is_what_a_strict_verdict_accepts(field: str, pack: Path) -> None:
-    found = certificate(Pack(pack), f"{FIRST}.txt", "exit")
+    found = read_pack_certificate(Pack(pack), f"{FIRST}.txt", "exit")
     assert found
     assert not found.problems
     vars(found)["verdict"] = replace(found.verdict, **{field: "other"})  # type: ignore[arg-type]

@@ -39,7 +39,15 @@ from ninja_game.runs.chunks import (
 )
 from ninja_game.runs.recording_reader import Unreadable, records_of
 from ninja_game.runs.verify import Verdict, with_demands
-from ninja_game.runs.workers import JOB_SECONDS, WORKER_BYTES, ClusterError, Local, WorkerLostError, results_of, workers
+from ninja_game.runs.workers import (
+    JOB_SECONDS,
+    WORKER_BYTES,
+    ClusterError,
+    Local,
+    WorkerLostError,
+    open_workers,
+    results_of,
+)
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import object_table
 from tests.support.samples import (
@@ -297,7 +305,7 @@ def test_jobs_are_taken_as_they_are_needed() -> None:
             taken.append(number)
             yield number
 
-    with workers(2) as pool:
+    with open_workers(2) as pool:
         results = results_of(pool, double, jobs())
         assert [next(results) for _ in range(3)] == [(0, 0), (1, 2), (2, 4)]
         assert len(taken) < 20

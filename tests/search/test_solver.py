@@ -31,7 +31,7 @@ from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import open_start
 from ninja_game.search.searching import Search
 from ninja_game.search.solve import solve
-from ninja_game.search.task import FIRST_RUN_SEARCHES, Progress, Task, first_run_searches
+from ninja_game.search.task import FIRST_RUN_SEARCHES, Progress, Task, plan_first_run
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
 from tests.support.reference import levels, require_reference
 
@@ -126,7 +126,7 @@ def test_the_memory_of_a_solver_is_free_when_it_has_ended(jobs: int) -> None:
 
 def test_every_job_makes_all_searches_for_a_first_run() -> None:
     for job in range(4):
-        first = islice(first_run_searches(job), len(FIRST_RUN_SEARCHES))
+        first = islice(plan_first_run(job), len(FIRST_RUN_SEARCHES))
         assert {(resolution, ticks) for resolution, ticks, _ in first} == set(FIRST_RUN_SEARCHES)
 
 

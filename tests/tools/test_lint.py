@@ -40,6 +40,12 @@ def test_one_meaning_is_no_fault_and_a_reason_that_is_idle_is_one() -> None:
     assert sum("strike it out" in fault for fault in lint.two_meanings({})) == len(lint.REASONS)
 
 
+def test_two_names_of_a_module_that_differ_only_by_case_are_seen() -> None:
+    assert faults(lint.like_names, "ninja_game/a.py", "_ROW = 3\ndef _row(): pass")
+    assert faults(lint.like_names, "ninja_game/a.py", "class _Row: pass\n_A, _row = 1, 2")
+    assert not faults(lint.like_names, "ninja_game/a.py", "_ROW = 3\ndef row(_row): _Row = 1")
+
+
 @pytest.mark.parametrize(
     "text", ["import a\ndef f(a): b = 1", "def f(): pass\ng = [f for f in x]", "if T:\n    import a\ng = lambda a: a"]
 )

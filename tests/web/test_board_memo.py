@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.board import collect, copies, judge, memo, runs as board_runs
-from ninja_game.board.collect import RunFolder, Sent, SentFile
+from ninja_game.board.collect import RunFolder, Submission, SubmittedFile
 from ninja_game.board.memo import Memo
 from ninja_game.cli.main import cli
 from ninja_game.files.tree import Tree
@@ -91,7 +91,7 @@ def test_a_file_that_lies_there_as_before_is_not_read(
     read: list[str] = []
     file = RunFolder.file
 
-    def noting(self: RunFolder, name: str) -> SentFile:
+    def noting(self: RunFolder, name: str) -> SubmittedFile:
         read.append(name)
         return file(self, name)
 
@@ -199,7 +199,7 @@ def test_a_file_with_many_records_is_read_once_for_all_their_pages(
     board(runs, levels)
     parsed, recordings = list[str](), RunFolder.recordings
 
-    def noting(self: RunFolder, file: SentFile) -> list[Sent]:
+    def noting(self: RunFolder, file: SubmittedFile) -> list[Submission]:
         parsed.append(file.name)
         return recordings(self, file)
 
@@ -240,7 +240,7 @@ def test_what_comes_with_the_runs_is_not_remembered(
     put(runs, "ann.txt", slow_walk(author="Ann"))
     board(runs, levels)
     (known,) = board_cache.glob("runs-*.json")
-    forged = known.read_text("utf-8").replace(f", {3600 + 80 - WALK_END - 5}", ", 99999")
+    forged = known.read_text("utf-8").replace(f": {3600 + 80 - WALK_END - 5}", ": 99999")
     assert forged != known.read_text("utf-8")
     shutil.rmtree(board_cache)
     simulated.clear()
@@ -278,8 +278,9 @@ def test_a_broken_memo_is_an_empty_one(text: str, tmp_path: Path) -> None:
     assert Memo(path).recall("key") == [1]
 
 
-BROKEN = [7, "x", None, [], [7], [[]], [[0, ""]], [[0, "odd", "why"]], [[0, "", "", "Ann", 5]], [[0, "refused", []]],
-          [[0, "odd", "why", "Ann", DIGEST]]]  # fmt: skip
+BROKEN = [7, "x", None, {}, [], [7], [{}], [{"record": 0, "kind": ""}], [{"record": 0, "kind": "odd", "level": DIGEST}],
+          [{"record": 0, "kind": "refused", "why": []}], [{"record": 0, "kind": "refused", "odd": 1}]]  # fmt: skip
+"""Entries of a memo; or, as a list, the rows of an entry that is whole else."""
 
 
 @pytest.mark.parametrize("broken", BROKEN)
@@ -293,7 +294,10 @@ def test_a_broken_row_of_a_memo_is_none(
     other = put(tmp_path, "other.txt", "of somebody")
     for path in board_cache.iterdir():
         names = {"../other.txt": broken, "": broken, "\0": broken, "/": broken, "board/../../other.txt": broken}
-        path.write_text(json.dumps(dict.fromkeys(json.loads(path.read_text("utf-8")), broken) | names), "utf-8")
+        entries = json.loads(path.read_text("utf-8"))
+        for name, entry in entries.items():
+            entries[name] = entry | {"rows": broken} if isinstance(entry, dict) and isinstance(broken, list) else broken
+        path.write_text(json.dumps(entries | names), "utf-8")
     simulated.clear()
     assert board(runs, levels, "--site", str(site)) == printed
     assert simulated == ["ann.txt", "bea.txt"]

@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.files.bundled import data_folder
 from ninja_game.levels.published import published_levels
-from ninja_game.play.lab.figure import FIGURE, Figure
+from ninja_game.play.lab.figure import FIGURE_AREA, Figure
 from ninja_game.play.lab.screen import FIGURES
 from ninja_game.sim.collision.tiles import EDGE_OF_FACES
 from ninja_game.sim.grid import cell_at
@@ -70,7 +70,7 @@ def moved(name: str, x: float, y: float) -> Figure:
     """The figure of the lab on this machine, dragged to a place."""
     figure = FIGURES[name]()
     left, top, zoom = figure.view
-    figure.drag(left + x * FIGURE[2] / zoom, top + y * FIGURE[3] / zoom)
+    figure.drag(left + x * FIGURE_AREA[2] / zoom, top + y * FIGURE_AREA[3] / zoom)
     return figure
 
 

@@ -22,8 +22,8 @@ from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, TILE_C
 from ninja_game.formats.ascii.object_lines import DOORS, MOVEMENTS
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.runs.level_design import design
-from ninja_game.runs.packs import certificate
+from ninja_game.runs.level_design import measure_design
+from ninja_game.runs.packs import read_pack_certificate
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -238,8 +238,8 @@ def figures_of_set(pack: Pack) -> dict[str, dict[str, float]]:
         if pars.difficulty is not None:
             found[file]["difficulty"] = pars.difficulty
     for file, figures_of_level in found.items():
-        run = certificate(pack, file, "exit")
-        counts = design(run.level, run.recording.inputs)._asdict() if run else {}
+        run = read_pack_certificate(pack, file, "exit")
+        counts = measure_design(run.level, run.recording.inputs)._asdict() if run else {}
         figures_of_level |= {name: float(value) for name, value in counts.items() if value is not None}
     return found
 

@@ -27,7 +27,13 @@ from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import same_spec, write_ascii_level
-from ninja_game.formats.links import is_link, read_link, recordings_in_links as watched_recordings, watched, write_link
+from ninja_game.formats.links import (
+    is_link,
+    read_link,
+    recordings_in_links as watched_recordings,
+    watched_names,
+    write_link,
+)
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import read_level_file
@@ -214,7 +220,7 @@ def _pack(pack: Pack) -> None:
 
 
 def _link(text: str) -> None:
-    watched(text)
+    watched_names(text)
     kind = read_link(text).kind
     link = text if is_link(text) else f"#{text.partition('#')[2]}"
     _pack(Pack(Path(link))) if kind == "pack" else load_replays(link) if kind == "replay" else load_levels(link)

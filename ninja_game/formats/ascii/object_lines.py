@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeVar
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME, WEAPONS
-from ninja_game.formats.ascii.places import read_cell, read_number, read_place, shown
+from ninja_game.formats.ascii.places import quoted, read_cell, read_number, read_place
 from ninja_game.formats.lines import read_quoted
 from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KINDS, LAUNCH_PAD, ONE_WAY, THWUMP
 from ninja_game.sim.level import ObjectSpec
@@ -133,7 +133,7 @@ def _read_pair(text: str) -> tuple[float, float]:
     """Two numbers ``a,b``. Raises LevelError."""
     numbers = text.split(",")
     if len(numbers) != 2:
-        raise LevelError("not a pair of numbers", found=shown(text), expected="x,y such as 0.6,-0.8")
+        raise LevelError("not a pair of numbers", found=quoted(text), expected="x,y such as 0.6,-0.8")
     return read_number(numbers[0]), read_number(numbers[1])
 
 
@@ -224,7 +224,7 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
     words = takewhile(lambda token: "," not in token.text, tokens)
     found = " ".join(token.text for token in words) or tokens[0].text
     hint = suggestion(found, [*FORMS, "tile", "raw"])
-    raise LevelError("unknown kind of object", column=tokens[0].column, found=shown(found), hint=hint)
+    raise LevelError("unknown kind of object", column=tokens[0].column, found=quoted(found), hint=hint)
 
 
 def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
@@ -244,7 +244,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
         elif "," in token.text:
             if token.text.strip(",") != token.text:
                 hint = "column and row stand together, as in 5,7"
-                raise LevelError("a place with a blank in it", column=token.column, found=shown(token.text), hint=hint)
+                raise LevelError("a place with a blank in it", column=token.column, found=quoted(token.text), hint=hint)
             if places and form.single:
                 hint = "write one line for each, or 'switch' before its switch" if form.takes else ""
                 raise LevelError(f"a second place for one '{keyword}'", column=token.column, hint=hint)
@@ -253,7 +253,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
         else:
             raise _unknown_word(keyword, form, token, next(words, None))
         if name in by_name:
-            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
+            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=quoted(token.text))
         by_name[name] = value
     _check_complete(keyword, form, by_name, tokens)
     return places, by_name
@@ -269,7 +269,7 @@ def _unknown_word(keyword: str, form: Form, token: Token, following: Token | Non
         hint = f"column and row stand together: write {token.text},{following.text}"
     else:
         hint = suggestion(token.text, known) if known else f"'{keyword}' has places only, such as 5,7"
-    return LevelError(f"unknown word for '{keyword}'", column=token.column, found=shown(token.text), hint=hint)
+    return LevelError(f"unknown word for '{keyword}'", column=token.column, found=quoted(token.text), hint=hint)
 
 
 _EXAMPLES = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "facing": "facing 1"}
@@ -292,7 +292,7 @@ def _read_tiles(tokens: Sequence[Token]) -> list[OddTile]:
         raise LevelError("incomplete tile line", column=tokens[0].column, expected="tile 5,7 id 70")
     number = tokens[-1]
     if re.fullmatch(r"-?\d{1,18}", number.text, re.ASCII) is None:
-        raise LevelError("not a tile id", column=number.column, found=shown(number.text), expected="a whole number")
+        raise LevelError("not a tile id", column=number.column, found=quoted(number.text), expected="a whole number")
     return [OddTile(at_token(token, read_cell), int(number.text), token.column) for token in tokens[1:-2]]
 
 
@@ -318,6 +318,6 @@ def _read_string(text: str) -> str:
     value = read_quoted(text)
     if value is None or value != value.encode("utf-8", "replace").decode():
         raise LevelError(
-            "not a text in double quotes", found=shown(text), expected='"text", with \\" and \\\\ as in JSON'
+            "not a text in double quotes", found=quoted(text), expected='"text", with \\" and \\\\ as in JSON'
         )
     return value

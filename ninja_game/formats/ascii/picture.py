@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS, TILE_OF_CHAR, Symbol, visible_glyphs
 from ninja_game.formats.ascii.object_lines import ListedObject, OddTile
-from ninja_game.formats.ascii.places import READING_ORDER, shown
+from ninja_game.formats.ascii.places import READING_ORDER, quoted
 from ninja_game.sim.grid import Cell, middle_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
@@ -136,7 +136,7 @@ def _check_number(line: int, text: str, number: int, problems: Problems) -> bool
     for label in match.group(1, 3) if match else ():
         if label and (len(label) > 2 or int(label) != number):
             hint = "a row is missing or stands twice above; the numbers may be left out"
-            problems.add("wrong row number", line, found=shown(label), expected=str(number), hint=hint)
+            problems.add("wrong row number", line, found=quoted(label), expected=str(number), hint=hint)
             return False
     return True
 
@@ -152,7 +152,7 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
             problems.add("a picture row without its left frame", line, start, expected=f"'{FRAME}' before the cells")
         elif text.count(FRAME) > 1:
             hint = "nothing but the row's number may follow the frame"
-            problems.add("a picture row with something after its frame", line, found=shown(tail.strip()), hint=hint)
+            problems.add("a picture row with something after its frame", line, found=quoted(tail.strip()), hint=hint)
         else:
             problems.add("a picture row without its right frame", line, column, expected=f"'{FRAME}' at the end")
         return None

@@ -18,7 +18,7 @@ READING_ORDER: list[Cell] = [(column, row) for row in range(1, ROWS + 1) for col
 """All cells of a level, row by row."""
 
 
-def shown(text: str) -> str:
+def quoted(text: str) -> str:
     """A word of the file in quotes, truncated if it is long."""
     return repr(text if len(text) <= _MAX_SHOWN else f"{text[:_MAX_SHOWN]}...")
 
@@ -41,10 +41,10 @@ def read_number(text: str) -> float:
     Raises LevelError (without a place) for anything else.
     """
     if _NUMBER.fullmatch(text) is None:
-        raise LevelError("not a number", found=shown(text), expected="a decimal such as 12, -0.5 or 408.15")
+        raise LevelError("not a number", found=quoted(text), expected="a decimal such as 12, -0.5 or 408.15")
     value = float(text)
     if math.isinf(value) and "inf" not in text:
-        raise LevelError("number too large", found=shown(text), hint="write inf if you mean infinity")
+        raise LevelError("number too large", found=quoted(text), hint="write inf if you mean infinity")
     return value
 
 
@@ -71,7 +71,9 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
     numbers = text.removesuffix("px").split(",")
     if len(numbers) != 2 or "" in numbers:
         raise LevelError(
-            "not a place", found=shown(text), expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px"
+            "not a place",
+            found=quoted(text),
+            expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px",
         )
     x, y = map(read_number, numbers)
     if px:
@@ -92,5 +94,5 @@ def read_cell(text: str) -> Cell:
     x, y = read_place(text)
     column, row = (x - HALF) / CELL, (y - HALF) / CELL
     if text.endswith("px") or not (column.is_integer() and row.is_integer()):
-        raise LevelError("not a whole cell", found=shown(text), expected="column,row such as 20,14")
+        raise LevelError("not a whole cell", found=quoted(text), expected="column,row such as 20,14")
     return int(column), int(row)

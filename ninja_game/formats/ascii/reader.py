@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.object_lines import ListedObject, OddTile, read_object_line, suggestion
 from ninja_game.formats.ascii.picture import ROW_END, ROW_START, Problems, merge_picture_and_list, read_picture
-from ninja_game.formats.ascii.places import shown
+from ninja_game.formats.ascii.places import quoted
 from ninja_game.formats.ascii.writer import ASCII_MAGIC, ASCII_VERSION, HEADER_KEYS
 from ninja_game.formats.lines import MAX_NAME, UNCOMMENTED, Line, numbered_lines, read_quoted
 from ninja_game.formats.messages import parse_messages
@@ -71,7 +71,7 @@ def _check_first(lines: Sequence[Line], problems: Problems) -> None:
     words = first.split()
     expected = f"'{ASCII_MAGIC} {ASCII_VERSION}' in the first line"
     if words[:2] != ASCII_MAGIC.split() or len(words) != 3:
-        problems.add("not an ASCII level", number, 1, found=shown(first), expected=expected)
+        problems.add("not an ASCII level", number, 1, found=quoted(first), expected=expected)
     elif words[2] != str(ASCII_VERSION):
         hint = "a level for a newer ninja-game needs a newer ninja-game"
         problems.add(
@@ -89,7 +89,7 @@ def sections(lines: Sequence[Line], problems: Problems) -> tuple[list[Line], lis
         if ROW_START.match(line) or (":" not in line and ROW_END.search(line)):
             if listed:
                 hint = "the picture is one block; the list of objects stands below it"
-                problems.add("a picture row below the list", number, found=shown(line.strip()), hint=hint)
+                problems.add("a picture row below the list", number, found=quoted(line.strip()), hint=hint)
                 break
             rows.append((number, line))
         else:
@@ -108,18 +108,18 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
             expected = "key: value, or the first row of the picture, |...|"
             is_comment = line.lstrip().startswith(("#", "//"))
             hint = "comments begin with ;" if is_comment else "objects are listed below the picture"
-            problems.add("not a header line", number, 1, found=shown(line.strip()), expected=expected, hint=hint)
+            problems.add("not a header line", number, 1, found=quoted(line.strip()), expected=expected, hint=hint)
         elif key not in HEADER_KEYS:
-            problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
+            problems.add("unknown header", number, 1, found=quoted(key), hint=suggestion(key, HEADER_KEYS))
         elif key in fields:
-            problems.add("a header given twice", number, 1, found=shown(key), hint="keep one")
+            problems.add("a header given twice", number, 1, found=quoted(key), hint="keep one")
         else:
             value = value.strip()
-            quoted = read_quoted(value) if value.startswith('"') else None
-            fields[key] = value if quoted is None else quoted
+            text = read_quoted(value) if value.startswith('"') else None
+            fields[key] = value if text is None else text
             if len(fields[key]) > MAX_NAME and key not in {"comment", "says"}:
                 what = f"a text of {len(fields[key]):,} characters"
-                problems.add(what, number, found=shown(fields[key]), expected=f"at most {MAX_NAME:,}")
+                problems.add(what, number, found=quoted(fields[key]), expected=f"at most {MAX_NAME:,}")
             elif key == "says":
                 try:
                     parse_messages(fields[key])

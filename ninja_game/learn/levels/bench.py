@@ -59,7 +59,7 @@ class BenchLevel(NamedTuple):
     inputs: bytes
 
 
-class _Base(NamedTuple):
+class _BaseLevel(NamedTuple):
     """A level to be varied. ``places``: of the ninja after each tick of the run, px.
 
     ``starts``: ticks of the run after which another may begin, the slowest first: the ninja stands far from the start.
@@ -115,7 +115,7 @@ def bench_level(split: str, number: int, attempt: int | None = None) -> BenchLev
     return BenchLevel(f"bench-{split}-{number}", grade, Level(base.level.tiles, tuple(objects)), keys)
 
 
-def _place(base: _Base, tick: int) -> tuple[float, float]:
+def _place(base: _BaseLevel, tick: int) -> tuple[float, float]:
     """The place of the ninja after ``tick`` ticks, whole px."""
     x, y = base.places[tick - 1].round().tolist()
     return x, y
@@ -137,7 +137,7 @@ _SIDES_SWAPPED = bytes(keys ^ _SIDES if keys & _SIDES not in (0, _SIDES) else ke
 
 
 @lru_cache(maxsize=2 * BASES)
-def _base(number: int, mirrored: bool) -> _Base:
+def _base(number: int, mirrored: bool) -> _BaseLevel:
     """A level that comes with the game, or its mirror image, with a run that passes it."""
     if not mirrored:
         packed = frozen_level(number)
@@ -147,14 +147,14 @@ def _base(number: int, mirrored: bool) -> _Base:
         stands = np.frombuffer(record.states, np.uint8) <= SKIDDING
         is_apart = np.abs(places - places[0]).sum(1) >= _AWAY
         order = np.argsort(speeds, kind="stable")
-        return _Base(packed.level, packed.inputs[: len(places)], places, order[(stands & is_apart)[order]] + 1)
+        return _BaseLevel(packed.level, packed.inputs[: len(places)], places, order[(stands & is_apart)[order]] + 1)
     base = _base(number, mirrored=False)
     (mirror,) = SYMMETRIES["left-right"]
     columns = np.reshape(base.level.tiles, (COLUMNS, ROWS))[::-1]
     tiles = tuple(mirror.tile(tile) for tile in columns.ravel().tolist())
     level = Level(tiles, tuple(carried(spec, mirror) for spec in base.level.objects))
     places = base.places * (-1.0, 1.0) + (mirror.dx, 0.0)
-    return _Base(level, base.inputs.translate(_SIDES_SWAPPED), places, base.starts)
+    return _BaseLevel(level, base.inputs.translate(_SIDES_SWAPPED), places, base.starts)
 
 
 class _Levels(Sequence[Level]):

@@ -85,13 +85,13 @@ def word_like(word: str, words: Sequence[str]) -> str:
     return ", ".join(get_close_matches(word, words, 3, 0.5) or words[:3])
 
 
-Draws = NDArray[np.uint64]
+Uint64s = NDArray[np.uint64]
 
 _STEP = np.uint64(0x9E3779B97F4A7C15)
 _FIRST, _SECOND = np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 
 
-def draws(seeds: Draws, episodes: Draws) -> Draws:
+def draws(seeds: Uint64s, episodes: Uint64s) -> Uint64s:
     """Draw ``episodes[k]`` of the stream ``seeds[k]``, (k,) uint64, uniform in 0 … 2^64 - 1 (SplitMix64, Steele 2014).
 
     >>> draws(np.array([0, 0], np.uint64), np.array([0, 1], np.uint64)).tolist()
@@ -100,7 +100,7 @@ def draws(seeds: Draws, episodes: Draws) -> Draws:
     return _mix(_mix(seeds + _STEP) + episodes * _STEP)
 
 
-def _mix(state: Draws) -> Draws:
+def _mix(state: Uint64s) -> Uint64s:
     """SplitMix64's output function: every bit of the state affects every bit of the result."""
     state = (state ^ state >> np.uint64(30)) * _FIRST
     state = (state ^ state >> np.uint64(27)) * _SECOND
@@ -121,7 +121,7 @@ class LevelSequences:
         self._seeds[worlds] = [checked_seed(seed) for seed in seeds]
         self._episodes[worlds] = 0
 
-    def next(self, worlds: Indices, chosen: ChosenLevels | None) -> tuple[Indices, Draws]:
+    def next(self, worlds: Indices, chosen: ChosenLevels | None) -> tuple[Indices, Uint64s]:
         """The numbers of the levels of these worlds' next episodes, drawn or ``chosen``; both count as an episode.
 
         Also another random number per episode, for draws in it.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -11,7 +11,7 @@ from gymnasium.spaces import Box
 
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Array, Part, PartContext, clamp, put_value
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, put_value
 from ninja_game.learn.observations.surroundings import SAMPLES, solidity
 from ninja_game.learn.observations.vectors import MAX_SPEED
 from ninja_game.sim import kinds
@@ -22,7 +22,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, TILES
 from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEED, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.object_fields import Object
-from ninja_game.sim.schema.world_fields import World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import DRONE_MOVE, GUARD_CHASE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, THWUMP_MOVE, TRAP
 from ninja_game.sim.traces import contact_place_of
 
@@ -166,8 +166,9 @@ class NearObjects(Part):
 
 @kernel
 def observe_objects(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    count: int, ranges: Any, bounds: Any, objects: Any, nearest: Any, distances: Any,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, count: int, ranges: Lookup, bounds: Lookup, objects: Lookup, nearest: Lookup,
+    distances: Lookup,
 ) -> None:  # fmt: skip
     """Sort the nearest objects of some worlds by insertion, and write them."""
     for k in range(first, last):
@@ -255,8 +256,8 @@ class LevelPlanes(Part):
 
 @kernel
 def observe_planes(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    solid: Any, bounds: Any, objects: Any, highest: Any, closed: Any,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, solid: Lookup, bounds: Lookup, objects: Lookup, highest: Lookup, closed: Lookup,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]

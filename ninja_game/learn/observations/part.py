@@ -19,6 +19,8 @@ from ninja_game.backend.worlds import InitialLevel, InitialObject, Worlds
 from ninja_game.sim.schema.declare import fast
 
 Array = NDArray[Any]
+Lookup = Array | list[Any]
+"""What kernels read: an array, of records where values belong together, or a list for the plain memory."""
 
 
 @dataclass(frozen=True)

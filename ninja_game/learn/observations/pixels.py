@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import ceil, sqrt
 from typing import Any, ClassVar, NamedTuple
@@ -13,14 +14,14 @@ from numpy.typing import NDArray
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.objects import OBSERVED, activity_of, is_there
-from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, copy_values
 from ninja_game.learn.observations.surroundings import cached_by_tiles, solidity
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, UNIT_X, UNIT_Y
 from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, HALF, RADIUS, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.object_fields import Object
-from ninja_game.sim.schema.world_fields import World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import DRONE_FIRING, WEAPON_LASER
 from ninja_game.sim.traces import contact_place_of
 
@@ -278,8 +279,8 @@ def solid_points(
 
 @kernel
 def observe_pixels(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    tiles: Any, view: PixelView, layers: Layers, bounds: Any, things: Any,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, tiles: Lookup, view: PixelView, layers: Layers, bounds: Lookup, things: Lookup,
 ) -> None:  # fmt: skip
     """Draw the pictures of some worlds: the tiles, copied; the objects in the order of their slots; the ninja.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import Any, ClassVar
@@ -13,7 +13,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.part import Part, PartContext, clamp, copy_values
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, copy_values
 from ninja_game.sim.collision.ray_shapes import ray_tile
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, FULL, SHAPE
@@ -37,7 +37,7 @@ from ninja_game.sim.rules import (
     WORLD_WIDTH,
 )
 from ninja_game.sim.schema.declare import fast, kernel
-from ninja_game.sim.schema.world_fields import EDGE_STATES
+from ninja_game.sim.schema.world_fields import EDGE_STATES, TileMap, World
 
 SAMPLES = 8  # points across a cell for measuring distances: the error is below 3 px, the distance of the points
 
@@ -53,7 +53,7 @@ def solidity(
 
 
 @kernel
-def mark_solid(maps: Any, number: int, width: float, height: float, points: Any) -> None:
+def mark_solid(maps: Sequence[TileMap], number: int, width: float, height: float, points: Array) -> None:
     """Mark the points that are solid, ``width`` and ``height`` px apart."""
     for row in range(len(points)):
         for column in range(len(points[row])):
@@ -154,8 +154,8 @@ class LocalTiles(Part):
 
 @kernel
 def observe_distances(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    pictures: Any, width: int, height: int, size: int,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, pictures: Lookup, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]
@@ -168,8 +168,8 @@ def observe_distances(
 
 @kernel
 def observe_tiles(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    pictures: Any, width: int, height: int, size: int,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, pictures: Lookup, width: int, height: int, size: int,
 ) -> None:  # fmt: skip
     """Write the tile of each cell around the ninja."""
     for k in range(first, last):
@@ -255,8 +255,9 @@ def mark_edges(fresh: Any, number: int, states: Any) -> None:
 
 @kernel
 def observe_rays(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    dx: Any, dy: Any, pace_x: Any, pace_y: Any, reach: float, factor: float, edges: Any,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, dx: Lookup, dy: Lookup, pace_x: Lookup, pace_y: Lookup, reach: float, factor: float,
+    edges: Lookup,
 ) -> None:  # fmt: skip
     """Follow the rays of some worlds like ``cast_ray``, bit for bit, with fewer look-ups per line of the grid."""
     for k in range(first, last):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -10,14 +11,14 @@ from gymnasium.spaces import Box
 
 from ninja_game.backend.worlds import InitialObject
 from ninja_game.learn.goal_distance import point_within
-from ninja_game.learn.observations.part import Part, PartContext, clamp, put_value
+from ninja_game.learn.observations.part import Array, Lookup, Part, PartContext, clamp, put_value
 from ninja_game.search.heuristics import FARTHEST
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, GOLD
 from ninja_game.sim.rules import CELL, HALF, MAX_JUMP_TICKS, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.schema.declare import fast, kernel
-from ninja_game.sim.schema.world_fields import World
+from ninja_game.sim.schema.world_fields import TileMap, World
 from ninja_game.sim.states import JUMPING, STATE_NAMES
 
 MAX_SPEED = 24.0  # px/tick; a ninja is seldom faster than 10
@@ -114,9 +115,9 @@ class StateVector(Part):
 
 @kernel
 def observe_state(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    ranges: Any, exit_bounds: Any, exits: Any, gold_bounds: Any, gold: Any,
-    changed: Any, opened: Any, nearest: Any,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, ranges: Lookup, exit_bounds: Lookup, exits: Lookup, gold_bounds: Lookup, gold: Lookup,
+    changed: Lookup, opened: Lookup, nearest: Lookup,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]
@@ -251,8 +252,8 @@ class TimeLeft(Part):
 
 @kernel
 def observe_time(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    time_limit: int, factor: float, highest: float,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, time_limit: int, factor: float, highest: float,
 ) -> None:  # fmt: skip
     for k in range(first, last):
         index = indices[k]
@@ -293,8 +294,9 @@ class Guide(Part):
 
 @kernel
 def observe_guide(
-    maps: Any, level_of: Any, worlds: Any, indices: Any, first: int, last: int, out: Any, offset: int,
-    dx: Any, dy: Any, share: Any, fields: Any, rows: Any, factor: float, highest: float,
+    maps: Sequence[TileMap], level_of: Array, worlds: Sequence[World], indices: Array, first: int, last: int,
+    out: Array, offset: int, dx: Lookup, dy: Lookup, share: Lookup, fields: Array, rows: Array, factor: float,
+    highest: float,
 ) -> None:  # fmt: skip
     """Read the fields of some worlds; worlds without their field yet are observed again later."""
     for k in range(first, last):

@@ -84,7 +84,7 @@ def _shown(shown: bool) -> str:
     return "shown" if shown else "hidden"
 
 
-class Steps(NamedTuple):
+class Choices(NamedTuple):
     """What a command goes through, one step each time. ``actions``: by the steps' names; ``now``: the present step."""
 
     actions: dict[str, Action]
@@ -112,16 +112,16 @@ class EditorCommands(DocumentCommands):
         else:
             self._table()[name]()
 
-    def _steps(self) -> dict[str, Steps]:
+    def _steps(self) -> dict[str, Choices]:
         """The steps of the commands that have several, by the commands' names."""
         tools, view, brush = self.session.tools, self.view, self.session.tools.brush
         mirror = _MIRRORS[brush.symmetry]
         return {
-            "next_tool": Steps({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
-            "takes": Steps({what: partial(tools.take, what) for what in TAKES}, tools.takes),
-            "symmetry": Steps({_MIRRORS[name]: partial(self.mirror, name) for name in _MIRRORS}, mirror),
-            "grid": Steps({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
-            "snap_next": Steps({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
+            "next_tool": Choices({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
+            "takes": Choices({what: partial(tools.take, what) for what in TAKES}, tools.takes),
+            "symmetry": Choices({_MIRRORS[name]: partial(self.mirror, name) for name in _MIRRORS}, mirror),
+            "grid": Choices({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
+            "snap_next": Choices({snap: partial(self.snap, snap) for snap in SNAPS}, brush.snap),
         }
 
     def _table(self) -> dict[str, Action]:

@@ -38,7 +38,7 @@ from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, contains_point, 
 from ninja_game.ui.widgets import Widget
 from ninja_game.view.ninja.figure import FIGURE_REACH, STAND, paint_figure
 from ninja_game.view.sprites import static_sprites
-from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
+from ninja_game.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawn_within, is_near
 from ninja_game.view.sprites.moving_sprites import draw_moving
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 from ninja_game.view.sprites.sketch import Sketch
@@ -52,7 +52,7 @@ _KEPT = 4000
 _HIDDEN = 4  # opacity in eighths of a door that a player cannot see yet
 
 
-@drawing(FIGURE_REACH)
+@drawn_within(FIGURE_REACH)
 def _standing(s: Sketch, p: Palette) -> None:
     paint_figure(s, p, STAND, 1, (0.0, 0.0), colour=p.ninja)
 

@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.editor.files import Source
 from ninja_game.editor.palette import SNAPS, ObjectType, snapped
-from ninja_game.editor.specs import PROPERTIES, properties, word
+from ninja_game.editor.specs import PROPERTIES_BY_KIND, properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
 from ninja_game.play.editor.bars import StatusLine, Toolbar
@@ -165,7 +165,7 @@ class EditorScreen(WorkspaceScreen):
 
     def _words_on(self, name: str, by: int) -> str:
         spec = next(subject for subject in self.session.tools.subjects if name in properties(subject))
-        words, now = list(PROPERTIES[spec.kind][name].words), word(spec, name)
+        words, now = list(PROPERTIES_BY_KIND[spec.kind][name].words), word(spec, name)
         return next_option(words, now if now in words else words[0], by)
 
     def update(self, real_ms: int) -> None:

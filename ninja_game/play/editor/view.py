@@ -38,7 +38,7 @@ from ninja_game.ui.canvas import Camera, Colour, Lens
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Widget
-from ninja_game.view.sprites.drawing import DrawTarget, drawing, is_near
+from ninja_game.view.sprites.drawing import DrawTarget, drawn_within, is_near
 from ninja_game.view.sprites.sketch import Sketch
 
 GHOST = 5  # opacity of the preview of a press, in eighths
@@ -48,7 +48,7 @@ DOUBLE = 4  # notches of the wheel that double the zoom
 EDGE_SPEED = 0.3  # scrolling while something is dragged beyond an edge of the view, logical px per ms
 
 
-@drawing(13)
+@drawn_within(13)
 def _ring(s: Sketch, p: Palette, colour: str) -> None:
     """A ring around an object that is, or by a click would be, selected. ``colour``: a role of the palette."""
     s.ring(getattr(p, colour), 0, 0, 11, 1.6)

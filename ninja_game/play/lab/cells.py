@@ -101,7 +101,7 @@ class NineCells(Figure):
         super().reset()
         self.tiles, self.world = room_world(self.room, self.objects)
 
-    def objects_asked(self) -> tuple[list[int], list[str]]:
+    def objects_tested(self) -> tuple[list[int], list[str]]:
         """The slots of the notified objects, in order, and the events; the world is restored."""
         w = self.world
         before = save_plain(w)
@@ -113,7 +113,7 @@ class NineCells(Figure):
         return [int(call.arguments["o"]) for call in calls if call.name == "touch"], events
 
     def numbers(self) -> list[tuple[str, str]]:
-        slots, events = self.objects_asked()
+        slots, events = self.objects_tested()
         names = [KIND_NAMES[self.world.objects[slot].kind] for slot in slots]
         return [
             ("objects in the level", str(self.world.id_count)),
@@ -130,7 +130,7 @@ class NineCells(Figure):
             sheet.shade(cell, palette.switch if offset else palette.good, 60)
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 7, size=9, colour=palette.faint)
         sheet.grid()
-        slots, _ = self.objects_asked()
+        slots, _ = self.objects_tested()
         for shape in hit_shapes(self.world):
             if not shape.ninja:
                 sheet.body(
@@ -193,7 +193,7 @@ class RayCast(Figure):
         cells = values_of("cell", cast_ray, self.tiles, self.world, self.from_x, self.from_y, *self.direction)
         return [cell for cell in cells if EXISTS[cell]]
 
-    def asked(self) -> tuple[list[int], bool, Point]:
+    def shapes_tested(self) -> tuple[list[int], bool, Point]:
         """The cells whose shapes were tested, whether the ray was stopped, and where, px."""
         ray = self.from_x, self.from_y, self.x, self.y
         (stopped, x, y), calls = traced(ray_tiles, self.tiles, self.world, *ray)
@@ -203,7 +203,7 @@ class RayCast(Figure):
 
     def met(self) -> tuple[list[int], list[int]]:
         """The slots of the gold that the ray hits before it stops: in cells that it visits, and in others."""
-        cells, (_, stopped, end) = set(self.visited), self.asked()
+        cells, (_, stopped, end) = set(self.visited), self.shapes_tested()
         reach = dist((self.from_x, self.from_y), end) if stopped else 1e9
         pairs: tuple[list[int], list[int]] = ([], [])
         for slot in range(1, self.world.id_count + 1):
@@ -214,7 +214,7 @@ class RayCast(Figure):
         return pairs
 
     def numbers(self) -> list[tuple[str, str]]:
-        tested, stopped, (x, y) = self.asked()
+        tested, stopped, (x, y) = self.shapes_tested()
         ray = self.from_x, self.from_y, self.x, self.y
         inside, missed = self.met()
         return [
@@ -228,7 +228,7 @@ class RayCast(Figure):
 
     def draw(self, sheet: Sheet) -> None:
         palette = sheet.palette
-        tested, stopped, end = self.asked()
+        tested, stopped, end = self.shapes_tested()
         for number, cell in enumerate(self.visited, 1):
             sheet.shade(cell, palette.accent if cell in tested else palette.good, 80)
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=palette.faint)

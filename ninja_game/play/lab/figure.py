@@ -96,7 +96,7 @@ def values_of(local: str, function: Callable[..., Any], *args: Any) -> list[Any]
     return values
 
 
-FIGURE: Area = (212, 62, 540, 324)  # the area of a figure on the screen, logical px
+FIGURE_AREA: Area = (212, 62, 540, 324)  # the area of a figure on the screen, logical px
 
 
 ALL_CELLS = range(len(EXISTS))
@@ -120,12 +120,12 @@ class Sheet:
     def __init__(self, surface: pygame.Surface, theme: Theme, view: View) -> None:
         self.surface = surface
         self.view = view
-        x, y = theme.canvas.exact(FIGURE[0], FIGURE[1])
+        x, y = theme.canvas.exact(FIGURE_AREA[0], FIGURE_AREA[1])
         scale = theme.canvas.scale * view.zoom
         corner = round(x - view.left * scale), round(y - view.top * scale)
         self.canvas = Lens(theme.canvas.window, scale, corner)
         self.theme = theme
-        self.area = theme.canvas.rect(*FIGURE)
+        self.area = theme.canvas.rect(*FIGURE_AREA)
         surface.set_clip(self.area)
         surface.fill(theme.palette.background, self.area)
 
@@ -300,8 +300,8 @@ class Figure:
     def drag(self, x: float, y: float) -> None:
         """Move the handle to a point of the world, clamped to the shown part; the mouse button is down."""
         left, top, zoom = self.view
-        self.x = min(max(x, left + 1), left + FIGURE[2] / zoom - 1)
-        self.y = min(max(y, top + 1), top + FIGURE[3] / zoom - 1)
+        self.x = min(max(x, left + 1), left + FIGURE_AREA[2] / zoom - 1)
+        self.y = min(max(y, top + 1), top + FIGURE_AREA[3] / zoom - 1)
 
     def press(self, x: float, y: float) -> None:
         """The mouse button is pressed at a point of the world."""
@@ -330,7 +330,7 @@ class Figure:
         """Draw the figure in its frame."""
         self.draw(Sheet(surface, theme, self.view))
         surface.set_clip(None)
-        theme.canvas.frame_rect(surface, theme.palette.panel_edge, *FIGURE, 1)
+        theme.canvas.frame_rect(surface, theme.palette.panel_edge, *FIGURE_AREA, 1)
 
 
 ELSEWHERE = "ninja 700,500px"  # every world needs a ninja; this one is outside of the picture

@@ -9,7 +9,7 @@ from itertools import combinations, pairwise
 from random import Random
 from typing import NamedTuple
 
-from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, FigureSetting, Sheet
+from ninja_game.play.lab.figure import FIELD, FIGURE_AREA, Control, Figure, FigureSetting, Sheet
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.sim.rules import STRIDE
@@ -17,7 +17,7 @@ from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import World
 
 _LEFT, _TOP = FIELD.left, FIELD.top
-_RIGHT, _BOTTOM = _LEFT + FIGURE[2] / FIELD.zoom, _TOP + FIGURE[3] / FIELD.zoom
+_RIGHT, _BOTTOM = _LEFT + FIGURE_AREA[2] / FIELD.zoom, _TOP + FIGURE_AREA[3] / FIELD.zoom
 
 FIVE_CELLS = (0, 1, STRIDE - 1, STRIDE, STRIDE + 1)
 """The rest of the own list, and the lists right, below left, below, below right: every pair of neighbours once."""
@@ -104,13 +104,13 @@ class Crowd:
                 slot = o.next
 
 
-MEASURED = (25, 50, 100, 200, 400)  # the numbers of objects in the plot
+PLOTTED_COUNTS = (25, 50, 100, 200, 400)  # the numbers of objects in the plot
 
 CHART = (_LEFT + 460, _TOP + 270, 240.0, 140.0)  # the plot's area, px of the world
 
 
 @cache
-def measured(count: int, radius: float) -> tuple[Work, Work]:
+def mean_work(count: int, radius: float) -> tuple[Work, Work]:
     """The mean work per tick with ``count`` objects, in the loose and the normal grid."""
     crowd, ticks = Crowd(count, radius), 8
     works = [crowd.move() for _ in range(ticks)]
@@ -153,14 +153,14 @@ class LooseGrid(Figure):
     def tick(self) -> None:
         self.works = self.crowd.move()
 
-    def asked(self) -> tuple[set[int], set[int]]:
+    def cells_tested(self) -> tuple[set[int], set[int]]:
         """The cells that a body at the handle tests: in the loose grid, in the normal one."""
         probe = Object()
         probe.x, probe.y = self.x, self.y
         return {self.cell + offset for offset in NINE_CELLS}, set(self.crowd.cells_of(probe))
 
     def numbers(self) -> list[tuple[str, str]]:
-        (loose, normal), (nine, four) = self.works, self.asked()
+        (loose, normal), (nine, four) = self.works, self.cells_tested()
         in_nine = sum(o.cell in nine for o in self.crowd.objects)
         in_four = sum(bool(self.crowd.cells_of(o) & four) for o in self.crowd.objects)
         return [
@@ -173,7 +173,7 @@ class LooseGrid(Figure):
 
     def draw(self, sheet: Sheet) -> None:
         palette = sheet.palette
-        nine, four = self.asked()
+        nine, four = self.cells_tested()
         for cell in nine:
             sheet.shade(cell, palette.switch, 60)
         for cell in four:
@@ -190,19 +190,19 @@ class LooseGrid(Figure):
     def _draw_plot(self, sheet: Sheet) -> None:
         palette, (x, y, w, h) = sheet.palette, CHART
         sheet.canvas.fill_rect(sheet.surface, palette.panel, x - 6, y - 22, w + 16, h + 44, 4)
-        rows = [measured(count, self.radius) for count in MEASURED]
+        rows = [mean_work(count, self.radius) for count in PLOTTED_COUNTS]
         most = max(1, *(work[self.plot] for row in rows for work in row))
         for grid, colour in ((0, palette.switch), (1, palette.accent)):
             points = [
-                (x + w * count / MEASURED[-1], y + h - h * row[grid][self.plot] / most)
-                for count, row in zip(MEASURED, rows, strict=True)
+                (x + w * count / PLOTTED_COUNTS[-1], y + h - h * row[grid][self.plot] / most)
+                for count, row in zip(PLOTTED_COUNTS, rows, strict=True)
             ]
             for start, end in pairwise(points):
                 sheet.line(colour, start, end, 2)
             sheet.text(("loose", "normal")[grid], x + 30 + 80 * grid, y - 12, size=9, colour=colour)
         sheet.line(palette.faint, (x, y + h), (x + w, y + h))
         sheet.text(f"a tick: up to {most}", x + w - 55, y - 12, size=8)
-        sheet.text(f"objects: up to {MEASURED[-1]}", x + w - 55, y + h + 11, size=8)
+        sheet.text(f"objects: up to {PLOTTED_COUNTS[-1]}", x + w - 55, y + h + 11, size=8)
 
 
 class FiveCells(Figure):

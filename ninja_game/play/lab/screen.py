@@ -11,7 +11,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import Doors, EdgeStates, WalkingEnemies
-from ninja_game.play.lab.figure import FIGURE, Figure
+from ninja_game.play.lab.figure import FIGURE_AREA, Figure
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import OneTick
 from ninja_game.play.lab.projection import Bodies, Projection, Response
@@ -102,7 +102,7 @@ class LabScreen(MenuScreen):
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
-        theme, (x, _, w, _) = self.app.theme, FIGURE
+        theme, (x, _, w, _) = self.app.theme, FIGURE_AREA
         at = x
         for role, words in self.figure.legend.items():
             theme.canvas.fill_rect(surface, getattr(theme.palette, role), at, _LEGEND_TOP + 1, 9, 9)
@@ -119,13 +119,13 @@ class FigureArea(Widget):
     """The figure: the mouse drags and the arrows move its handle; Page Down goes on to the controls."""
 
     def __init__(self, screen: LabScreen) -> None:
-        super().__init__(FIGURE)
+        super().__init__(FIGURE_AREA)
         self.screen = screen
         self.hint = f"Drag, or use the arrows; Page Down goes on. More: {', '.join(screen.figure.links)}"
 
     def _world(self, x: float, y: float) -> tuple[float, float]:
         left, top, zoom = self.screen.figure.view
-        return left + (x - FIGURE[0]) / zoom, top + (y - FIGURE[1]) / zoom
+        return left + (x - FIGURE_AREA[0]) / zoom, top + (y - FIGURE_AREA[1]) / zoom
 
     def click(self, x: float, y: float) -> bool:
         self.screen.handle_press()
@@ -154,7 +154,7 @@ class FigureArea(Widget):
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.screen.figure.show(surface, theme)
         if focused:
-            theme.canvas.frame_rect(surface, theme.palette.accent, *FIGURE, 2.5)
+            theme.canvas.frame_rect(surface, theme.palette.accent, *FIGURE_AREA, 2.5)
 
 
 FILM_TICKS = 240
@@ -170,7 +170,7 @@ class FigurePicture:
         self.figure = FIGURES[name]()
         self.theme = context.theme
         self.surface = pygame.Surface(context.canvas.window)
-        self.area = context.canvas.rect(*FIGURE)
+        self.area = context.canvas.rect(*FIGURE_AREA)
 
     def draw(self) -> None:
         self.figure.show(self.surface, self.theme)
@@ -205,7 +205,7 @@ def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
     elif path.suffix == ".gif":
         pictures = figure_pictures(name, scale=scale)
         context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)))
-        palette, size = context.theme.palette, context.canvas.rect(*FIGURE).size
+        palette, size = context.theme.palette, context.canvas.rect(*FIGURE_AREA).size
         write_gif(pictures, FILM_TICKS, path, size, 1.0, palette)
     else:
         raise NinjaGameError(f"{path}: a figure is written as .png or .gif")

@@ -50,7 +50,7 @@ REWIND_TICKS = 2  # ticks back per tick for which the rewind key is held
 _SPACING = 10  # ticks between save-states, at first
 
 
-def followed(shown: float, true: float) -> float:
+def eased_lifetime(shown: float, true: float) -> float:
     """The lifetime to show in the next picture: it approaches the true one, so that gold fills the bar smoothly."""
     if abs(true - shown) < 1:
         return true
@@ -250,7 +250,7 @@ class LevelPlay:
                 tick_ms = SLOW_TICK_MS if self.tools.slow else self.app.tick_ms * 100 // self.app.settings.game_speed
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
-            self.shown_lifetime = followed(self.shown_lifetime, self.attempt.lifetime)
+            self.shown_lifetime = eased_lifetime(self.shown_lifetime, self.attempt.lifetime)
 
     @property
     def fraction(self) -> float:

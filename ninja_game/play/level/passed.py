@@ -50,7 +50,7 @@ class EpisodePassed(ThumbnailScreen):
 
     def __init__(self, app: App, run: EpisodePlaythrough, play: Callable[[EpisodePlaythrough], object]) -> None:
         super().__init__(app)
-        self.run, self.player = run, run.data
+        self.run, self.player = run, run.player
         self._play = play
         self.title = f"Episode {run.episode.code} passed"
         self.particles = Particles()

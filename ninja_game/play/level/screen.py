@@ -143,12 +143,12 @@ class LevelScreen(Screen):
 
     def _skip_the_last(self, run: EpisodePlaythrough) -> None:
         """Skipping the last level of an episode leads to the next episode."""
-        following = run.data.catalogue.following(run.episode)
+        following = run.player.catalogue.following(run.episode)
         if following is None:
             self._leave_to(Navigation.BACK)
             self.app.notify("That was the last episode")
             return
-        afresh = EpisodePlaythrough(run.data, following, practice_mode=run.practice_mode)
+        afresh = EpisodePlaythrough(run.player, following, practice_mode=run.practice_mode)
         self.app.replace(LevelScreen(self.app, afresh))
         self.app.notify(f"Skipped. Now episode {following.code}: {following.name}")
 
@@ -166,9 +166,9 @@ class LevelScreen(Screen):
         ``paused``: opened from the pause panel, to which Esc leads back, as it does from play.
         """
         playthrough, app = self.playthrough, self.app
-        run = playthrough.data.catalogue.author_run(playthrough.entry)
+        run = playthrough.player.catalogue.author_run(playthrough.entry)
         seen = self.play.is_stuck or opens_author(
-            playthrough.entry, playthrough.data.marks.of(playthrough.entry.digest)
+            playthrough.entry, playthrough.player.marks.of(playthrough.entry.digest)
         )
         back = partial(self.pause, HELP_ROW * paused) if paused or self.phase is Phase.PLAY else nothing
         if self.phase is Phase.PLAY:
@@ -202,7 +202,7 @@ class LevelScreen(Screen):
 
     def quit(self) -> None:
         self.playthrough.gave_up(self.attempt)
-        self.playthrough.data.store.flush()
+        self.playthrough.player.store.flush()
         self._leave_to(self.playthrough.on_leaving)
 
     def _leave_to(self, where: Navigation) -> None:
@@ -240,7 +240,7 @@ class LevelScreen(Screen):
         """Save this run among the player's replays, even if it is not the best."""
         if self._is_spared():
             return
-        self.app.notify(keep_replay(self.playthrough.data, self._replay()))
+        self.app.notify(keep_replay(self.playthrough.player, self._replay()))
 
     def _is_spared(self) -> bool:
         """Whether only invincibility saved the run: then its keys alone are no replay, and a notice says so."""

@@ -19,7 +19,7 @@ from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
 from ninja_game.player.episode_playthrough import EpisodePlaythrough, unfinished_run
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, has_all_gold, tally, worst_medal
+from ninja_game.player.progress import CHEATED, LOCKED, WITH_HELP, Mark, count_results, has_all_gold, worst_medal
 from ninja_game.runtime import in_page_or_not
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.list_view import BAR_WIDTH, ListView
@@ -314,7 +314,7 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
         levels = self.pack.levels
-        total = tally(levels, self.marks, self.passed)
+        total = count_results(levels, self.marks, self.passed)
         by = f" by {shown_text(self.player.settings.name)}" if self.player.settings.name else ""
         passed = f"{total.passed} of {total.levels} levels passed{by}"
         theme.text(surface, passed, _LEFT, y, size=11, bold=True, width=_WIDE)

@@ -11,7 +11,7 @@ from time import monotonic
 
 from ninja_game.editor import packs
 from ninja_game.editor.pack_steps import Steps
-from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of
+from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of_pack
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, file_stem, shown_text
 from ninja_game.files.user_folder import EXPORTS, short_path
@@ -196,7 +196,7 @@ class Checked:
 
     @classmethod
     def of(cls, pack: Pack, obstacles: Obstacles) -> Checked:
-        findings = problems_of(pack, obstacles)
+        findings = problems_of_pack(pack, obstacles)
         to_do = [odd for odd in findings if odd.code in MADE_READY and not (odd.reason or odd.sought)]
         return cls(pack, [finding for finding in findings if finding not in to_do], to_do)
 

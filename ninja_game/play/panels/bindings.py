@@ -16,7 +16,7 @@ from ninja_game.ui.theme import Area, Theme
 from ninja_game.ui.widgets import TEXT_SIZE
 
 
-def clash(first: str, second: str) -> bool:
+def can_clash(first: str, second: str) -> bool:
     """Whether two actions must not share an input: both are read on one screen, and share none by default."""
     a, b = ACTIONS[first], ACTIONS[second]
     if first == second or {a.where, b.where} == {"level", "replay"}:
@@ -132,7 +132,7 @@ class BindingTable(ListView):
         if not bindable(action, name, MENU_KEYS if self.device == "keys" else MENU_PAD):
             self.app.notify(f"{input_label(self.device, name)} works the menus: choose another one")
             return
-        others = [other for other in ACTIONS if name in self.inputs(other) and clash(action, other)]
+        others = [other for other in ACTIONS if name in self.inputs(other) and can_clash(action, other)]
         share = partial(self.put, action, slot, name)
 
         def take() -> None:

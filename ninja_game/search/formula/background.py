@@ -18,7 +18,7 @@ from ninja_game.runs.run import run_level
 from ninja_game.runtime import cores, require_desktop, run_in_background
 from ninja_game.search.certificate import UnverifiedRunError, with_plain_triggers, without_idle_keys
 from ninja_game.search.formula.methods import METHODS, search_span, to_exit
-from ninja_game.search.formula.task import SpanResult, SpanTask, tidied
+from ninja_game.search.formula.task import SpanResult, SpanTask, without_useless_keys
 from ninja_game.sim.inputs import KEYS_DOWN, fit_inputs, with_press_bits
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ class SpanSearch:
         self._tidy = {result.inputs: known[result.inputs] for result in results if result.inputs in known}
         for result in results:
             if result.inputs not in self._tidy and monotonic() < late:
-                self._tidy[result.inputs] = tidied(self.task, result)
+                self._tidy[result.inputs] = without_useless_keys(self.task, result)
         return tuple(self._tidy.get(result.inputs, result) for result in results)
 
 

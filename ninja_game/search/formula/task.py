@@ -104,7 +104,7 @@ class SpanResult:
     missing: tuple[str, ...] = field(compare=False, default=())
 
 
-def tidied(task: SpanTask, result: SpanResult) -> SpanResult:
+def without_useless_keys(task: SpanTask, result: SpanResult) -> SpanResult:
     """Remove keys that do nothing from a result (``without_idle_keys``)."""
     first, last = task.first, task.first + result.ticks
     inputs = without_idle_keys(

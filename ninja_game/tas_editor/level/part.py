@@ -22,7 +22,7 @@ from ninja_game.tas_editor.level import paths
 from ninja_game.tas_editor.level.other_runs import OtherRuns
 from ninja_game.tas_editor.level.picture import LevelPicture, RunGhost
 from ninja_game.tas_editor.level.playing import Playing, TakeOver
-from ninja_game.tas_editor.tabs.values_tab import proposal
+from ninja_game.tas_editor.tabs.values_tab import proposed_formula
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.theme import Theme, plot_colour
 from ninja_game.view.overlays import OVERLAY_ACTIONS
@@ -309,7 +309,7 @@ class LevelPointer:
         if self._button == pygame.BUTTON_MIDDLE:
             self._camera.show_all()
         elif part.pointed is not None:
-            part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
+            part.ask_to_watch(proposed_formula(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
     def _point(self, event: pygame.Event, at: Px) -> None:
         """Name the object under the mouse; a click or a drag goes to the tick where the ninja was nearest."""

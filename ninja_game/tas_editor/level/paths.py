@@ -32,7 +32,7 @@ _THIN = 0.8  # width of paths
 _THICK = 2.7  # width of their selected part
 
 
-def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
+def with_alpha(colour: pygame.Color, alpha: int) -> pygame.Color:
     return pygame.Color(colour.r, colour.g, colour.b, alpha)
 
 
@@ -84,7 +84,7 @@ class LevelPaths:
             drawn = []
             for path in paths:
                 shown = path.trajectory.positions[path.first : path.last]
-                colour = shaded(path.colour, path.alpha)
+                colour = with_alpha(path.colour, path.alpha)
                 drawn.append(draw_path(self._under, self.canvas, shown, colour, self._px(_THIN)))
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)
@@ -112,7 +112,7 @@ class LevelPaths:
         if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
             self._present.fill((0, 0, 0, 0), self._present_covered)
             self._present_covered, known = pygame.Rect(0, 0, 0, 0), 0
-        colour = shaded(self.theme.palette.accent, FAINT)
+        colour = with_alpha(self.theme.palette.accent, FAINT)
         added = positions[max(0, known - 1) :]
         rect = draw_path(self._present, self.canvas, added, colour, self._px(_THIN))
         self._present_covered = union_of([self._present_covered, rect])
@@ -168,7 +168,7 @@ class LevelPaths:
             y += (top - plate.top) / scale
             plate.top = top
         self._labels.append(plate)
-        ground = shaded(theme.palette.background, 200)
+        ground = with_alpha(theme.palette.background, 200)
         theme.canvas.fill_rect(surface, ground, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
         theme.text(surface, text, x, y, size=LETTERS, colour=colour)
 

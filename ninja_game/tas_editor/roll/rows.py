@@ -304,7 +304,7 @@ class RowSheet:
             if value == 0:
                 text, ink = "0", mixed(ink, theme.palette.panel, 0.5)
             else:
-                text = shortened(value, place.column.decimals)
+                text = short_number(value, place.column.decimals)
             self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
 
     def _contacts(self, contacts: int, place: _Place, left: int, y: int, ink: pygame.Color) -> None:
@@ -349,7 +349,7 @@ class RowSheet:
             self._blits.append((name, (right + gap, y + self._lift)))
 
 
-def shortened(value: float, decimals: int) -> str:
+def short_number(value: float, decimals: int) -> str:
     """A number in at most six characters: with fewer decimals if it is long, "-" if that is not enough."""
     text = f"{value:.{decimals}f}"
     if len(text) > _MAX_LETTERS:

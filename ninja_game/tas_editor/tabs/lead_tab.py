@@ -42,7 +42,7 @@ class LeadTab(Tab):
     def __init__(self, editor: TasEditor) -> None:
         super().__init__(editor)
         self._opened = editor.track
-        self._asked: Pair | None = None
+        self._requested: Pair | None = None
         self._unchanged_ms = 0
         self._job: NewestJob[_Job, tuple[Pair, LeadTable | str]] = NewestJob(compared_pair)
         self._choice = Choice(
@@ -87,8 +87,8 @@ class LeadTab(Tab):
         if self._theirs() not in {track for _, track in self._choice.options}:
             self.editor.against = None
         pair = self._pair
-        if pair != self._asked:
-            self._asked, self._unchanged_ms = pair, 0
+        if pair != self._requested:
+            self._requested, self._unchanged_ms = pair, 0
         elif self._unchanged_ms < PAUSE_MS:
             self._unchanged_ms += real_ms
             if self._unchanged_ms >= PAUSE_MS:

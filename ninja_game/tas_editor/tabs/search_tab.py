@@ -293,7 +293,7 @@ class SearchTab(Tab):
             if results.first_behind is None and results.running:
                 results.stop()
             results.refresh()
-            if self.proposed is None and results.in_vain:
+            if self.proposed is None and results.found_nothing:
                 self.proposed = SpanPieces(self.editor, results.task)
             if self.proposed is not None:
                 self.proposed.refresh()

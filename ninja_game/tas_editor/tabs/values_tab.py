@@ -158,19 +158,19 @@ class ObjectChoice(MenuScreen):
         id_, kind, px, py = self._objects[index]
         x, y, w, h = area
         theme.row(surface, (x, y, w, h - 1), chosen=focused, focused=False, filled=focused)
-        cells = ((48, str(id_)), (100, KIND_NAMES[kind]), (300, f"{px:.6g}, {py:.6g}"), (500, proposal(id_, kind)))
-        for at, text in cells:
+        place, formula = f"{px:.6g}, {py:.6g}", proposed_formula(id_, kind)
+        for at, text in ((48, str(id_)), (100, KIND_NAMES[kind]), (300, place), (500, formula)):
             theme.text(surface, text, at, y + 4, size=10.5)
 
     def _chosen(self, index: int) -> None:
         self.app.pop()
-        self._choose(proposal(*self._objects[index][:2]))
+        self._choose(proposed_formula(*self._objects[index][:2]))
 
 
-def proposal(id_: int, kind: int) -> str:
+def proposed_formula(id_: int, kind: int) -> str:
     """The formula proposed for an object of a kind.
 
-    >>> proposal(3, GOLD), proposal(4, EXIT)
+    >>> proposed_formula(3, GOLD), proposed_formula(4, EXIT)
     ('taken(3)', 'opened(4)')
     """
     if kind in (GOLD, MINE):

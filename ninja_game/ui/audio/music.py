@@ -73,7 +73,7 @@ class Music:
         self.folder = folder
         self.first = first
         self.levels = CALM
-        self.playing = self._asked = ""
+        self.playing = self._requested = ""
         self._sounds: Sequence[pygame.mixer.Sound] | None = None
         self._share = 0.0
         self._heard = list(CALM)
@@ -105,8 +105,8 @@ class Music:
 
     def _change(self, name: str) -> None:
         """Begin another music when it has been read; the one before ends."""
-        if self._asked != name:
-            self._asked, self._sounds = name, None
+        if self._requested != name:
+            self._requested, self._sounds = name, None
             reading = run_in_background(lambda: self._read(name), lambda _: None)
             self._readers = [*filter(Thread.is_alive, self._readers), reading]
         sounds = self._sounds
@@ -125,5 +125,5 @@ class Music:
             sounds = [pygame.mixer.Sound(file) for file in files]
         except (pygame.error, OSError):
             sounds = []
-        if self._asked == name:
+        if self._requested == name:
             self._sounds = sounds

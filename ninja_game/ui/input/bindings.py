@@ -119,7 +119,7 @@ class Bindings:
         pressed = [name for name, down in changes if down]
         released = [name for name, down in changes if not down]
         self.pad_used = self.pad_used or bool(pressed)
-        return self._noted(
+        return self._remember(
             InputEvent(
                 event,
                 tuple(action for name in pressed for action in self._by_pad.get(name, ())),
@@ -138,9 +138,9 @@ class Bindings:
         menu = MENU_KEYS.get(name, "")
         if event.type == pygame.KEYUP:
             return InputEvent(event, released=actions, menu_released=menu)
-        return self._noted(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
+        return self._remember(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
 
-    def _noted(self, event: InputEvent) -> InputEvent:
+    def _remember(self, event: InputEvent) -> InputEvent:
         """The event. Keeps the time of a press of a move for the next tick, and the running of ``tap_to_run``."""
         self._taps |= {bit: monotonic() for action, bit in MOVES if action in event.pressed}
         for action, bit in MOVES[:2]:

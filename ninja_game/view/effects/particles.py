@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import atan2, cos, degrees
 
 from ninja_game.ui.theme import Palette, mixed
-from ninja_game.view.sprites.drawing import DrawTarget, drawing
+from ninja_game.view.sprites.drawing import DrawTarget, drawn_within
 from ninja_game.view.sprites.sketch import Sketch, star
 from ninja_game.view.sprites.static_sprites import gold_streak, lightning
 
@@ -175,7 +175,7 @@ _PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
 """The function that draws each kind."""
 
 
-@drawing(7)
+@drawn_within(7)
 def puff(s: Sketch, p: Palette, role: str, step: int, variant: int) -> None:
     """A small cloud that widens. ``step`` 0…7."""
     r = 1.1 + 0.55 * step
@@ -187,7 +187,7 @@ def puff(s: Sketch, p: Palette, role: str, step: int, variant: int) -> None:
         s.disc(colour, x * r, y * r, share * r)
 
 
-@drawing(13)
+@drawn_within(13)
 def fireball(s: Sketch, p: Palette, step: int, variant: int) -> None:
     """A tongue of fire that grows and turns to smoke."""
     r = 3.5 + 0.9 * step
@@ -198,7 +198,7 @@ def fireball(s: Sketch, p: Palette, step: int, variant: int) -> None:
     s.disc(mixed(inner, p.background, max(0, step - 4) / 5), 0, 0, r * (0.55 - 0.05 * step))
 
 
-@drawing(26)
+@drawn_within(26)
 def burst_star(s: Sketch, p: Palette, step: int) -> None:
     """The flash of an explosion: a star that grows and becomes hollow."""
     r = 9 + 1.9 * step
@@ -207,7 +207,7 @@ def burst_star(s: Sketch, p: Palette, step: int) -> None:
     s.disc(p.bright, 0, 0, r * 0.3)
 
 
-@drawing(-2, -5, 12, 5)
+@drawn_within(-2, -5, 12, 5)
 def muzzle(s: Sketch, p: Palette, step: int) -> None:
     """A flash at a muzzle, to the right."""
     far = 10 - step

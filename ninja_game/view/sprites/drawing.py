@@ -51,7 +51,7 @@ class Drawing(Generic[P]):
         return SpriteKey(self, parameters)
 
 
-def drawing(*extent: float) -> Callable[[Callable[Concatenate[Sketch, Palette, P], None]], Drawing[P]]:
+def drawn_within(*extent: float) -> Callable[[Callable[Concatenate[Sketch, Palette, P], None]], Drawing[P]]:
     """Make a drawing from a function. One number as ``extent`` is a reach to all sides."""
     reach = extent[0]
     box = (-reach, -reach, reach, reach) if len(extent) == 1 else (extent[0], extent[1], extent[2], extent[3])

@@ -11,13 +11,13 @@ from ninja_game.sim.rules import AIM_FAR, AIM_NEAR, CHAINGUN_PREPARE, LASER_BEAM
 from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.theme import Palette, mixed
-from ninja_game.view.sprites.drawing import DrawTarget, drawing
+from ninja_game.view.sprites.drawing import DrawTarget, drawn_within
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 from ninja_game.view.sprites.sketch import Sketch, arc
 from ninja_game.view.sprites.static_sprites import crosshair
 
 
-@drawing(11)
+@drawn_within(11)
 def bounce_block(s: Sketch, p: Palette, awake: int) -> None:
     """A springy square, green like everything that springs."""
     s.framed_box(p.good, p.outline, -9.6, -9.6, 19.2, 19.2, 0.9)
@@ -27,7 +27,7 @@ def bounce_block(s: Sketch, p: Palette, awake: int) -> None:
         s.path(p.good, [(-4, side * 4), (-2, side * 1.6), (0, side * 4), (2, side * 1.6), (4, side * 4)], 1.1)
 
 
-@drawing(12)
+@drawn_within(12)
 def thwump(s: Sketch, p: Palette, mood: int, flicker: int) -> None:
     """A heavy square whose lower side is live. ``mood``: 0 at rest, 1 falling, 2 rising."""
     s.framed_box(mixed(p.dark, p.middle, 0.45), p.outline, -9, -9, 18, 18, 1.0)
@@ -48,7 +48,7 @@ def thwump(s: Sketch, p: Palette, mood: int, flicker: int) -> None:
             s.polygon(p.electric, [(x - 2, 9), (x + 2, 9), (x, 11.4)])
 
 
-@drawing(8)
+@drawn_within(8)
 def floor_guard(s: Sketch, p: Palette, active: int, flicker: int) -> None:
     """A dome that hugs the floor, 6 px below its point."""
     dome = [*arc(0, 0.2, 6, 180, 360), (6, 6), (-6, 6)]
@@ -66,7 +66,7 @@ def floor_guard(s: Sketch, p: Palette, active: int, flicker: int) -> None:
             s.stroke(p.spark if active else p.outline, (x, -4.6 + abs(x) * 0.5), (x, -7.2 + abs(x) * 0.5), 0.9)
 
 
-@drawing(-11, -17, 11, 11)
+@drawn_within(-11, -17, 11, 11)
 def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: int) -> None:
     """A round shell without its eye. ``weapon``: 0 zap, 1 laser, 2 chaingun; ``heat`` 0…8: its charge."""
     if seeker:
@@ -96,7 +96,7 @@ def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: i
         s.ring(p.middle, 0, 0, 7.4, 1.2)
 
 
-@drawing(-4, -5, 15, 5)
+@drawn_within(-4, -5, 15, 5)
 def barrel(s: Sketch, p: Palette, spin: int, heat: int) -> None:
     """The chaingun's barrels, along x."""
     s.box(p.outline, 1, -2.9, 11.4, 5.8)
@@ -109,7 +109,7 @@ def barrel(s: Sketch, p: Palette, spin: int, heat: int) -> None:
     s.disc(p.outline, 0, 0, 3.6)
 
 
-@drawing(4)
+@drawn_within(4)
 def eye(s: Sketch, p: Palette, mood: int) -> None:
     """A drone's eye, its pupil looking to the right. ``mood``: 0 calm, 1 hunting, 2 armed."""
     s.disc(p.outline, 0, 0, 3.0)
@@ -117,7 +117,7 @@ def eye(s: Sketch, p: Palette, mood: int) -> None:
     s.disc((p.outline, p.electric, p.weapon)[mood], 0.8, 0, 1.15)
 
 
-@drawing(9)
+@drawn_within(9)
 def rocket(s: Sketch, p: Palette, flame_phase: int) -> None:
     """A dart with its tip at the point, flying to the right, and the root of its flame."""
     length = (3.2, 4.4, 3.7, 5.0)[flame_phase % 4]
@@ -131,7 +131,7 @@ def rocket(s: Sketch, p: Palette, flame_phase: int) -> None:
     s.box(p.weapon, -4.4, -1.2, 1.2, 2.4)
 
 
-@drawing(-10, -4, 3, 4)
+@drawn_within(-10, -4, 3, 4)
 def flame(s: Sketch, p: Palette, step: int) -> None:
     """A puff of the flame behind a rocket; ``step`` 0 hot … 7 cold."""
     colours = (p.spark, p.flame, p.flame, p.ember, p.ember, p.smoke, p.smoke, p.smoke)
@@ -139,7 +139,7 @@ def flame(s: Sketch, p: Palette, step: int) -> None:
     s.disc(colours[step], 0, 0, radius)
 
 
-@drawing(11)
+@drawn_within(11)
 def impact_burst(s: Sketch, p: Palette, step: int) -> None:
     """The burning end of a laser: a flickering star that grows over the shot."""
     reach = 2.6 + 6.4 * step / 8

@@ -13,12 +13,12 @@ from ninja_game.sim.schema.object_fields import Object
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
 from ninja_game.ui.theme import Palette, mixed
-from ninja_game.view.sprites.drawing import SpriteKey, drawing
+from ninja_game.view.sprites.drawing import SpriteKey, drawn_within
 from ninja_game.view.sprites.object_animation import ObjectAnimation
 from ninja_game.view.sprites.sketch import Sketch, star
 
 
-@drawing(5.5)
+@drawn_within(5.5)
 def gold(s: Sketch, p: Palette) -> None:
     """A small bevelled ingot seen from above, with a glint in its corner."""
     s.box(p.gold_dark, -4.3, -4.3, 8.6, 8.6)
@@ -30,7 +30,7 @@ def gold(s: Sketch, p: Palette) -> None:
     s.polygon(p.spark, [(x - 2.6, y - 2.6) for x, y in star(4, 2.4, 0.6)])
 
 
-@drawing(5.6)
+@drawn_within(5.6)
 def mine(s: Sketch, p: Palette) -> None:
     """A spiked disc."""
     s.polygon(p.mine, star(8, 5.2 if p.danger_by_shape else 4.6, 2.5))
@@ -39,7 +39,7 @@ def mine(s: Sketch, p: Palette) -> None:
     s.disc(p.bright, -0.6, -0.6, 0.6)
 
 
-@drawing(13.5)
+@drawn_within(13.5)
 def exit_door(s: Sketch, p: Palette, step: int) -> None:
     """Two leaves before a lit doorway; they fold to its sides, within its frame, since rock may be beside it."""
     width = 12.1 - 8 * step / 8
@@ -57,7 +57,7 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
         s.box(p.exit, x + (8.9 if side < 0 else 1.5) * folded, -2.5, 1.7 * folded, 5)
 
 
-@drawing(11)
+@drawn_within(11)
 def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
     """A plate in the exit's colour with a bright key; a dark one with a tick mark once it is pressed."""
     s.framed_box(mixed(p.exit, p.outline, 0.5) if pressed else p.exit, p.outline, -9, -5.8, 18, 11.6)
@@ -66,7 +66,7 @@ def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
         s.path(p.exit_light, [(-3, -0.3), (-0.8, 1.9), (3.6, -3.4)], 1.5)
 
 
-@drawing(14)
+@drawn_within(14)
 def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
     """A bar across x = 0 from y -12 to 12; ``step``: how far its halves have shrunk."""
     half = 12 - 9 * step / 8
@@ -92,7 +92,7 @@ def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
             )
 
 
-@drawing(6.5)
+@drawn_within(6.5)
 def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
     """A round plate with a key (locked doors: gold is square) or a snare (trap doors)."""
     if mechanism == 1:
@@ -110,7 +110,7 @@ def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
             s.stroke(p.bright, (-1.2, 1.2), (1.2, -1.2), 0.8)
 
 
-@drawing(-9.5, -12, 9.5, 3)
+@drawn_within(-9.5, -12, 9.5, 3)
 def launch_pad(s: Sketch, p: Palette, step: int) -> None:
     """A spring plate on the surface at its point; ``step`` 8: just sprung, 0: settled. What springs is green."""
     top = -5.8 - 4.5 * step / 8
@@ -124,7 +124,7 @@ def launch_pad(s: Sketch, p: Palette, step: int) -> None:
     s.box(p.outline, -7.6, -0.7, 15.2, 0.9)
 
 
-@drawing(13)
+@drawn_within(13)
 def one_way(s: Sketch, p: Palette) -> None:
     """A bar on the solid side, here the upper one; chevrons below it show the open direction."""
     for top, width in ((-4.5, 2.0), (0.7, 1.2)):
@@ -133,7 +133,7 @@ def one_way(s: Sketch, p: Palette) -> None:
     s.box(mixed(p.switch, p.spark, 0.6), -12, -11.1, 24, 0.9)
 
 
-@drawing(7)
+@drawn_within(7)
 def turret_base(s: Sketch, p: Palette, step: int) -> None:
     """A round base; its dot grows before the shot."""
     s.disc(p.outline, 0, 0, 6.3)
@@ -144,7 +144,7 @@ def turret_base(s: Sketch, p: Palette, step: int) -> None:
         s.rays(p.outline, (45, 135, 225, 315), 4.2, 6.6, 1.4)
 
 
-@drawing(7)
+@drawn_within(7)
 def launcher_base(s: Sketch, p: Palette, step: int) -> None:
     """A round base with a rocket's head in its tube; it glows while the rocket is prepared."""
     s.disc(p.outline, 0, 0, 6.3)
@@ -157,7 +157,7 @@ def launcher_base(s: Sketch, p: Palette, step: int) -> None:
         s.disc(p.light, 4.6 * cos(a), 4.6 * sin(a), 0.7)
 
 
-@drawing(9)
+@drawn_within(9)
 def crosshair(s: Sketch, p: Palette, look: int) -> None:
     """The crosshair of a turret. ``look``: 0 far, 1 mid, 2 near, 3 locked (before and after the shot)."""
     radius = (2.3, 4.5, 6.8, 6.8)[look]
@@ -173,7 +173,7 @@ def crosshair(s: Sketch, p: Palette, look: int) -> None:
         s.disc(p.laser, 0, 0, 1.3)
 
 
-@drawing(-5, -38, 5, 6)
+@drawn_within(-5, -38, 5, 6)
 def gold_streak(s: Sketch, p: Palette, step: int) -> None:
     """Collected gold: squeezed into a streak that shoots up."""
     t = step / 8
@@ -183,7 +183,7 @@ def gold_streak(s: Sketch, p: Palette, step: int) -> None:
     s.polygon(p.gold_light, [(-width * 0.5, bottom), (0, top - 2), (width * 0.5, bottom)])
 
 
-@drawing(-20, -8, 20, 8)
+@drawn_within(-20, -8, 20, 8)
 def lightning(s: Sketch, p: Palette, variant: int) -> None:
     """A jagged flash along x."""
     zigzag = ((0, 3, -4, 2, -2, 0), (0, -4, 3, -3, 4, 0), (0, 5, -1, 3, -5, 0))[variant]

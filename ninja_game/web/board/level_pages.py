@@ -91,8 +91,10 @@ class LevelPages:
         def content() -> str:
             drawn, below = self._run_sections(run, rival)
             more = joined(*(tag("p", link) for link in links))
-            about = (parts.game, parts.links, parts.site)
-            return run_page(run.entry, stem, title, facts, BOARD, *about, drawn, more, below)
+            return run_page(
+                run.entry, stem, title, facts, folder=BOARD, game=parts.game, links=parts.links, site=parts.site,
+                drawn=drawn, more=more, below=below,
+            )  # fmt: skip
 
         parts.pages.make(f"{stem}.html", [title, facts, links, parts.around], content, replay=True)
 

@@ -9,7 +9,7 @@ from statistics import mean, median
 from typing import Any
 
 from ninja_game.board.ranking import Standing
-from ninja_game.board.report import unnamed
+from ninja_game.board.report import unnamed_hint
 from ninja_game.board.runs import Run
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.pack.pars import MEDALS
@@ -36,7 +36,7 @@ class PlayerPages:
             leads: list[Content] = [
                 tag("a", self.title(other), href=f"{pages[other]}.html") for other in pages if other != ladder
             ]
-            leads += filter(None, [unnamed(self.ranking.judged)])
+            leads += filter(None, [unnamed_hint(self.ranking.judged)])
             title, rows = self.title(ladder), [*map(self._cells, standings)]
             parts.write_table(pages[ladder], title, BY_LEVELS, self._heads(), rows, *(tag("p", lead) for lead in leads))
             for standing in standings:

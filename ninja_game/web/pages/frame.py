@@ -18,7 +18,7 @@ from ninja_game.files.reading import file_stamp
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.tree import Tree, leads_below
 from ninja_game.ui.canvas import png_of
-from ninja_game.ui.lettering import CAP, LETTER_SPACING, WEIGHTS, glyph
+from ninja_game.ui.lettering import CAP, LETTER_SPACING, WEIGHTS, glyph_of
 from ninja_game.ui.theme import PALETTES, Palette, mixed
 from ninja_game.view.ninja.figure import icon
 
@@ -223,7 +223,7 @@ def _navigation(links: tuple[tuple[str, str], ...], current: str) -> Markup:
 def heading(text: str) -> Markup:
     """The heading of a page in the game's own letters, or plain if letters are missing."""
     shown = shown_text(text)
-    glyphs = [glyph(character) for character in shown]
+    glyphs = [glyph_of(character) for character in shown]
     if not 0 < len(shown) <= _MAX_HEADING or None in glyphs:
         return tag("h1", text)
     x, moves = 1.0, []

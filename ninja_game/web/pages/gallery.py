@@ -123,7 +123,7 @@ def level_page(
 
 
 def run_page(
-    entry: Entry, stem: str, title: str, facts: Links, folder: str, game: str, links: Links, site: str,
+    entry: Entry, stem: str, title: str, facts: Links, *, folder: str, game: str, links: Links, site: str,
     drawn: Content = None, more: Content = None, below: Content = None,
 ) -> str:  # fmt: skip
     """The small page of a run, beside it in ``replays``, for the preview of its link in a chat, with links to it.
@@ -236,7 +236,7 @@ def write_gallery(out: Path, shown: PublishedLevels, *, address: str = "") -> Pa
             certificates[RUN_TITLES[kind]] = stem, tick
             facts = [("Time", f"{seconds_text(tick)} s"), ("Made", str(recording.replay.made))]
             pages.write(f"{stem}.txt", text, replay=True)
-            run = run_page(entry, stem, title, facts, pages.folder.name, game, near, site)
+            run = run_page(entry, stem, title, facts, folder=pages.folder.name, game=game, links=near, site=site)
             pages.write(f"{stem}.html", run, replay=True)
         pages.write(page_name(digest), level_page(entry, certificates, f"../{game}", deeper, site=site))
     pages.write("index.html", frame.page("Levels", *_list(shown), links=links))

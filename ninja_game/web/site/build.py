@@ -34,10 +34,10 @@ TEMPLATES = (GAME_PAGE, "sw.js")  # files of the page that name the version; the
 
 _FOLDER = "app-folder"  # the name of the version's folder in templates and documents
 
-_OF_PAGES = ("style.css", "search.js", "icon.png")
+_PAGES_FILES = ("style.css", "search.js", "icon.png")
 PAGES = (
     "index.html",
-    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _OF_PAGES),
+    *(f"{folder}/{name}" for folder in ("docs", "gallery") for name in _PAGES_FILES),
     "gallery/index.html",
 )
 """Pages cached for visits without a network, beside the game, *Learn* and the gallery; others once they are visited."""
@@ -75,7 +75,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
 
 def _own_files(out: Path) -> set[str]:
     """The files of an earlier build. Raises FileError for a folder that is not ours."""
-    if not out.exists() or (out.is_dir() and all(map(_of_pages, out.iterdir()))):
+    if not out.exists() or (out.is_dir() and all(map(_is_of_pages, out.iterdir()))):
         return set()
     hint = "name a new folder, or remove that one yourself"
     try:
@@ -87,7 +87,7 @@ def _own_files(out: Path) -> set[str]:
     return {name for name in names if isinstance(name, str) and leads_below(name)}
 
 
-def _of_pages(path: Path) -> bool:
+def _is_of_pages(path: Path) -> bool:
     """Whether a file belongs to a board or a gallery, or the replays beside one."""
     return (path / PAGES_MARK).is_file() or (path.name == REPLAYS and any(path.parent.glob(f"*/{PAGES_MARK}")))
 

@@ -17,7 +17,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor import packs
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.examination import LevelQuestion, problems_of
+from ninja_game.editor.examination import LevelQuestion, examine_level
 from ninja_game.editor.files import open_source
 from ninja_game.editor.palette import object_of_type, placed, with_switch
 from ninja_game.editor.reach import LANDED_TICK, Ask, find_reach
@@ -375,7 +375,7 @@ def test_an_exit_in_one_wall_with_its_switch_is_one_problem(room: Maker) -> None
     found = []
     for shut in (walls[0] | walls[1], walls[1]):
         level = room.draft.with_tiles(dict.fromkeys(shut, 1)).level
-        findings = problems_of(LevelQuestion(level, (), "", b"")).findings
+        findings = examine_level(LevelQuestion(level, (), "", b"")).findings
         found.append([finding.code for finding in findings if exit_ in finding.records])
     assert found == [["unreachable"], ["unreachable-switch"]]
 
@@ -397,9 +397,9 @@ def test_a_search_for_an_exit_that_cannot_be_reached_is_asked_about(
     assert started == [room.draft.level]
     exit_ = next(n for n, spec in enumerate(room.draft.objects) if spec.kind == EXIT)
     never = level_finding("unreached-exit", (exit_,))
-    odd = problems_of(LevelQuestion(room.draft.level, (never,), "", b"")).findings
+    odd = examine_level(LevelQuestion(room.draft.level, (never,), "", b"")).findings
     assert [each.code for each in odd if exit_ in each.records] == ["unreachable"]
-    assert problems_of(LevelQuestion(ROOM.level, (never,), "", b"")).findings == [never]
+    assert examine_level(LevelQuestion(ROOM.level, (never,), "", b"")).findings == [never]
 
 
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")

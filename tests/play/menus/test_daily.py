@@ -16,7 +16,7 @@ from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.player.progress import WITH_HELP
-from ninja_game.runs.packs import certificate
+from ninja_game.runs.packs import read_pack_certificate
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.waiting import LONGEST
@@ -80,7 +80,7 @@ def test_the_daily_level_is_made_once_beside_other_days_played_and_in_the_list_o
     pack = Pack(screen.file.parent)
     assert len(pack.levels) == len(pack.pars) == 2
     for file in pack.levels:
-        found = certificate(pack, file, "exit")
+        found = read_pack_certificate(pack, file, "exit")
         assert found is not None
         assert found.problems == []
 
@@ -92,7 +92,7 @@ def test_the_days_that_come_with_the_game_need_no_compiler(driver: MenuDriver, m
     screen = opened(driver)
     assert screen.entry is not None, screen.message
     assert screen.entry.pars is not None
-    found = certificate(Pack(screen.file.parent), screen.file.name, "exit")
+    found = read_pack_certificate(Pack(screen.file.parent), screen.file.name, "exit")
     assert found is not None
     assert found.problems == []
 
@@ -102,7 +102,7 @@ def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
     seen = set()
     for day in (daily._FIRST, daily._FIRST + timedelta(1), daily._FIRST + timedelta(7), last):
         assert daily.take_packed(tmp_path, day)
-        found = certificate(Pack(tmp_path / DAILY), f"{day}.txt", "exit")
+        found = read_pack_certificate(Pack(tmp_path / DAILY), f"{day}.txt", "exit")
         assert found is not None
         assert found.problems == []
         seen.add(level_digest(found.level))

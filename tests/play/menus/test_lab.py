@@ -15,7 +15,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.play.lab.cells import CellsTouched, GridOfCells, NineCells, RayCast
 from ninja_game.play.lab.edges import EDGE_WORDS, Doors, EdgeStates, WalkingEnemies
-from ninja_game.play.lab.figure import FIGURE, Figure, Sheet, room_world
+from ninja_game.play.lab.figure import FIGURE_AREA, Figure, Sheet, room_world
 from ninja_game.play.lab.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.one_tick import LAB_INPUTS, PHASES, OneTick
 from ninja_game.play.lab.projection import PUSH_RULE, Bodies, Projection, Response, candidates
@@ -72,7 +72,7 @@ def test_every_figure_has_two_sentences_and_links_to_sections_that_exist(name: s
 def test_a_figure_writes_itself(name: str, tmp_path: Path) -> None:
     export_figure(name, tmp_path / "figure.png")
     with Image.open(tmp_path / "figure.png") as picture:
-        assert list(picture.size) == list(FIGURE[2:])
+        assert list(picture.size) == list(FIGURE_AREA[2:])
         assert len(picture.convert("RGB").getcolors(1 << 24) or []) > 5
     first, *_, last = (pygame.image.tobytes(each, "RGB") for each in figure_pictures(name, ticks=60))
     assert first != last, "its demonstration stands still"
@@ -95,7 +95,7 @@ def test_demonstrations_show_what_they_showed() -> None:
 def test_a_film_of_a_figure(tmp_path: Path) -> None:
     export_figure("pairs", tmp_path / "pairs.gif", scale=0.5)
     with Image.open(tmp_path / "pairs.gif") as film:
-        assert list(film.size) == [FIGURE[2] / 2, FIGURE[3] / 2]
+        assert list(film.size) == [FIGURE_AREA[2] / 2, FIGURE_AREA[3] / 2]
         assert getattr(film, "n_frames", 0) > FILM_TICKS / 4
     with pytest.raises(NinjaGameError, match=r"\.png or \.gif"):
         export_figure("pairs", tmp_path / "pairs.bmp")
@@ -279,17 +279,17 @@ def test_nine_cells_tell_those_and_leave_the_world_alone() -> None:
     figure = NineCells()
     digest = world_digest(figure.world)
     for tick in demonstrated(figure, 60):
-        asked, events = figure.objects_asked()
+        tested, events = figure.objects_tested()
         centre = cell_at(figure.x, figure.y)
         near = {centre + dx + STRIDE * dy for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
         objects = figure.world.objects[1 : figure.world.slots_used]
         reached = {o.slot for o in objects if o.in_grid and o.cell in near}
         # Gold that is taken ends the walk of its list: the quirk is the world's, and so the figure's.
         if tick > 40:
-            assert set(asked) < reached
+            assert set(tested) < reached
             assert events == ["gold-taken", "gold-taken"]
         else:
-            assert set(asked) == reached
+            assert set(tested) == reached
     assert world_digest(figure.world) == digest
     gold, mine = figure.world.objects[1:3]
     figure.drag(gold.x, gold.y)
@@ -328,7 +328,7 @@ def test_bullets_hit_the_same_filed_or_not() -> None:
 def test_rays_visit_the_cells_between_and_name_what_a_loose_grid_misses() -> None:
     figure, missed_ever = RayCast(), 0
     for _ in demonstrated(figure, 240):
-        asked, stopped, end = figure.asked()
+        tested, stopped, end = figure.shapes_tested()
         reach = end if stopped else (figure.x, figure.y)
         start = figure.from_x, figure.from_y
         along = [
@@ -336,7 +336,7 @@ def test_rays_visit_the_cells_between_and_name_what_a_loose_grid_misses() -> Non
             for k in range(4000)
         ]
         assert set(along) <= set(figure.visited)
-        assert set(asked) <= set(figure.visited)
+        assert set(tested) <= set(figure.visited)
         seen = sees(figure.tiles, figure.world, *start, figure.x, figure.y)[0]
         assert numbers(figure)["sees the ninja"] == ("yes" if seen else "no")
         _, missed = figure.met()
@@ -416,7 +416,10 @@ def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
         pygame.event.post(pygame.Event(kind, pos=place, button=1, rel=(0, 0), buttons=(1, 0, 0)))
         driver.frames(1)
     left, top, zoom = screen.figure.view
-    assert (screen.figure.x, screen.figure.y) == (left + (420 - FIGURE[0]) / zoom, top + (220 - FIGURE[1]) / zoom)
+    assert (screen.figure.x, screen.figure.y) == (
+        left + (420 - FIGURE_AREA[0]) / zoom,
+        top + (220 - FIGURE_AREA[1]) / zoom,
+    )
     driver.press("pagedown", "right")
     assert isinstance(screen.figure, Projection)
     assert screen.figure.tile == 3
@@ -433,7 +436,7 @@ def test_the_mouse_presses_and_drags_a_figure_in_its_own_px(
     driver.choose("How it works")
     screen = driver.shown(LabScreen)
     left, top, zoom = screen.figure.view
-    x, y = FIGURE[0] + 30 * zoom, FIGURE[1] + 40 * zoom
+    x, y = FIGURE_AREA[0] + 30 * zoom, FIGURE_AREA[1] + 40 * zoom
     called: list[tuple[str, float, float]] = []
     for name in ("press", "drag"):
         monkeypatch.setattr(screen.figure, name, lambda x, y, name=name: called.append((name, x, y)))

@@ -89,7 +89,7 @@ def test_problems_are_looked_for_in_the_background(
         assert go_on.wait(LONGEST)
         return [pack_finding("no-author", "pack.toml")]
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", found)
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of_pack", found)
     desk.open_packs()
     desk.choose("Problems")
     assert "text 'Looking for problems: 0 s'" in drawn(desk.app)
@@ -116,7 +116,7 @@ def test_a_check_that_fails_ends_the_wait_for_it(
         assert go_on.wait(LONGEST)
         raise OSError(5, "the disk cannot be read")
 
-    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", fail)
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of_pack", fail)
     screen = desk.open_packs()
     desk.choose("Problems")
     assert "text 'Looking for problems: 0 s'" in drawn(desk.app)
@@ -125,7 +125,7 @@ def test_a_check_that_fails_ends_the_wait_for_it(
     assert "text '1 problem'" in drawn(desk.app)
     desk.press("escape")
     assert "the disk cannot be read" in screen.status.counts()
-    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of", lambda *_: [])
+    monkeypatch.setattr("ninja_game.play.menus.packer.problems_of_pack", lambda *_: [])
     index = desk.path / "pack.toml"
     index.write_text(index.read_text("utf-8") + "\n", "utf-8")
     assert [problem.text for problem in desk.problems()] != ["the disk cannot be read"]

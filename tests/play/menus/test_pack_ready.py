@@ -190,7 +190,7 @@ def test_what_is_wrong_is_asked_about_before_the_work_and_once(desk: Desk, monke
 
     def made(folder: Path, **_: object) -> ReadyPack:
         pack = Pack(folder)
-        problems = [*ready_pack.problems_of(pack, {}), *(later if len(begun) == 1 else [])]
+        problems = [*ready_pack.problems_of_pack(pack, {}), *(later if len(begun) == 1 else [])]
         begun.append(problems)
         return ReadyPack(pack, [each for each in problems if each.code == "no-ninja" or each in later], b"zip", "", [])
 

@@ -226,8 +226,8 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(desk: Desk) -> N
     assert f"text '{grid.pack.episodes[1].code}' at" not in text, "it is locked"
     desk.choose("Play")
     run = desk.shown(LevelScreen).playthrough
-    assert run.data is grid.player is not desk.player
-    assert save_work(run.data, lambda: ["New best"]) == ["New best", "Not saved yet: this is a preview"]
+    assert run.player is grid.player is not desk.player
+    assert save_work(run.player, lambda: ["New best"]) == ["New best", "Not saved yet: this is a preview"]
     desk.shown(LevelScreen).attempt.tick(0)
     desk.shown(LevelScreen).keep_replay()
     assert desk.app.notice == "Not saved yet: this is a preview"

@@ -21,7 +21,7 @@ from ninja_game.play.menus.episodes import NAMED_CELL, Cells, EpisodeGrid
 from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
-from ninja_game.player.progress import Mark, next_par, reached
+from ninja_game.player.progress import Mark, next_par, result_sentence
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -179,9 +179,9 @@ def test_card_says_time_and_gold_and_the_next_par(driver: MenuDriver) -> None:
     entry = driver.player.catalogue.episodes[0].levels[0]
     assert entry.pars is not None
     assert driver.player.reached(entry, None) == "Not passed yet"
-    assert reached(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
+    assert result_sentence(entry, Mark(197, 3)) == f"Time 4.925 s, gold 3 of {entry.all_gold}"
     bare = replace(entry, named=replace(entry.named, level=replace(entry.named.level, objects=())))
-    assert reached(bare, Mark(197, 0)) == "Time 4.925 s"
+    assert result_sentence(bare, Mark(197, 0)) == "Time 4.925 s"
     assert next_par(entry.pars, Mark(200, 0)) == f"Gold medal: {seconds_text(196)} s, 0.100 s to go"
     author = entry.pars.par("author")
     following = next_par(entry.pars, Mark(author + 4, 0))

@@ -5,7 +5,7 @@ import pytest
 
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
-from ninja_game.play.panels.bindings import BINDING_ROW, LIST, SLOTS, Capture, clash
+from ninja_game.play.panels.bindings import BINDING_ROW, LIST, SLOTS, Capture, can_clash
 from ninja_game.play.panels.settings import PALETTE_PREVIEW, SettingsScreen
 from ninja_game.ui.input.bindings import ACTIONS, MENU_KEYS, MENU_PAD, bindable
 from ninja_game.ui.theme import PALETTES
@@ -114,12 +114,12 @@ def test_defaults_do_not_clash_and_every_input_has_a_place() -> None:
         assert len(action.pad) <= SLOTS["pad"]
         for other, its in ACTIONS.items():
             if set(action.keys) & set(its.keys) or set(action.pad) & set(its.pad):
-                assert not clash(name, other)
+                assert not can_clash(name, other)
         assert all(bindable(name, each, MENU_KEYS) for each in action.keys)
         assert all(bindable(name, each, MENU_PAD) for each in action.pad)
-    assert clash("left", "retry")
-    assert clash("boss", "faster")
-    assert not clash("faster", "quick_save")
+    assert can_clash("left", "retry")
+    assert can_clash("boss", "faster")
+    assert not can_clash("faster", "quick_save")
 
 
 def test_a_key_of_the_menus_cannot_hide_the_game(driver: MenuDriver) -> None:

@@ -9,7 +9,7 @@ import pytest
 from ninja_game.formats.load import load_replays
 from ninja_game.search.formula import background
 from ninja_game.tas_editor import span_results
-from ninja_game.tas_editor.opening import prepare
+from ninja_game.tas_editor.opening import prepare_rules
 from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
@@ -20,7 +20,7 @@ RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
 @pytest.fixture(scope="session", autouse=True)
 def rules_are_there() -> None:
     """The TAS editor opens at once from the viewer, too."""
-    prepare(load_replays(RUN)[0])
+    prepare_rules(load_replays(RUN)[0])
 
 
 @pytest.fixture

@@ -29,7 +29,7 @@ def at(tmp_path: Path) -> Iterator[MenuDriver]:
 def loaded(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
     """The rules are there once this is set."""
     event = Event()
-    monkeypatch.setattr(opening, "prepare", lambda _: event.wait(60))
+    monkeypatch.setattr(opening, "prepare_rules", lambda _: event.wait(60))
     monkeypatch.setattr(opening, "is_prepared", lambda: False)
     yield event
     event.set()
@@ -87,7 +87,7 @@ def test_what_cannot_be_opened_is_reported_where_one_came_from(
 
 
 def test_what_was_prepared_is_there_at_once(at: MenuDriver) -> None:
-    opening.prepare(load_replays(RUN)[0])
+    opening.prepare_rules(load_replays(RUN)[0])
     assert is_prepared()
     if compiled_available():
         open_tas_editor(at.app, load_replays(RUN)[0], [], 3)

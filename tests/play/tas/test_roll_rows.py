@@ -11,7 +11,7 @@ from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.tracks import InputTrack
 from ninja_game.tas_editor.editor import tas_canvas, tas_layout
 from ninja_game.tas_editor.roll.facts import RowFacts, changed_ticks, row_facts, row_text
-from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, RowSheet, layout_of, shortened
+from ninja_game.tas_editor.roll.rows import ROLL_COLUMNS, RowSheet, layout_of, short_number
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Area, Theme
 from tests.support.tas_driver import TasDriver
@@ -56,9 +56,9 @@ def test_a_very_long_run_scrolls_by_drawing_new_rows_only(at: TasDriver, monkeyp
 
 def test_numbers_fit_their_columns() -> None:
     numbers = {(-0.5, 3): "-0.500", (-10.6743, 3): "-10.67", (791.999, 2): "792.00", (-123.456, 2): "-123.5"}
-    assert {each: shortened(*each) for each in numbers} == numbers
-    assert shortened(float("inf"), 1) == "-", "a level without an exit"
-    assert shortened(-1234567.0, 2) == "-"
+    assert {each: short_number(*each) for each in numbers} == numbers
+    assert short_number(float("inf"), 1) == "-", "a level without an exit"
+    assert short_number(-1234567.0, 2) == "-"
 
 
 def test_rows_that_differ_from_the_saved_ones_are_marked(at: TasDriver) -> None:

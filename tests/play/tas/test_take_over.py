@@ -188,11 +188,11 @@ def test_leaving_the_tas_editor_ends_it_and_keeps_what_was_played(at: TasDriver)
 
 
 def test_what_is_played_is_in_the_journal_before_it_ends(at: TasDriver) -> None:
-    noted = at.session._noted
+    noted = at.session._journaled
     take_over(at)
     at.keys.script = [2, *random_keys(60)]
     at.frames(61)
-    assert at.session._noted != noted
+    assert at.session._journaled != noted
     assert at.session.history.in_stroke
 
 

@@ -19,7 +19,7 @@ class Event:
         self.type = kind
 
 
-class Devices:
+class InputDevices:
     """State of keyboard and mouse. ``keys``: by scancode, whether they are down. ``mouse``: its place, px."""
 
     keys: tuple[bool, ...] = (False,) * 512
@@ -27,7 +27,7 @@ class Devices:
     mouse = (0, 0)
 
 
-DEVICES = Devices()
+DEVICES = InputDevices()
 
 
 def pump() -> None:
@@ -48,7 +48,7 @@ def post(event: Any) -> None:
     elif event.type in (constants.MOUSEMOTION, constants.MOUSEBUTTONDOWN, constants.MOUSEBUTTONUP):
         DEVICES.mouse = event.pos
     elif event.type == constants.WINDOWFOCUSLOST:
-        DEVICES.keys, DEVICES.modifiers = Devices.keys, 0
+        DEVICES.keys, DEVICES.modifiers = InputDevices.keys, 0
 
 
 def get() -> list[Any]:

@@ -9,10 +9,10 @@ class error(RuntimeError):
     """A failure of the page."""
 
 
-class Link:
+class PageLink:
     """The way to the page. ``page``: host.js, set at the start of the game."""
 
     page: Any = None
 
 
-LINK = Link()
+LINK = PageLink()
