@@ -18,7 +18,7 @@ from ninja_game.editor.playtests import lead_in, place_before
 from ninja_game.editor.solver import search_of
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, level_text, parse_messages
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
@@ -1130,6 +1130,7 @@ def test_undo_in_a_text_goes_back_word_by_word(room: Maker) -> None:
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
     opened(doors, "gold: {gold taken} taken and {gold left} left, {deaths} deaths")
     assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
+    assert level_text("{deaths} deaths", str, 0, 0, 1) == "1 death"
     doors.choose("OK")
     doors.press("f5")
     play = doors.shown(TryScreen).play
