@@ -28,6 +28,7 @@ from ninja_game.play.editor.commands import TryScreen
 from ninja_game.play.editor.messages import _PICTURE, _WHEN, MessagesScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import message_places
+from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.menu_screen import Menu
@@ -48,7 +49,7 @@ from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button, Label
 from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
-from tests.support.level_maker import ROOM, Maker
+from tests.support.level_maker import ROOM, Maker, examine
 
 LONG = "to the right and take the gold before you leave and then look for"
 """Its lines are broken elsewhere if they are measured in small letters."""
@@ -1285,6 +1286,16 @@ def test_nothing_beside_the_fields_is_cut_in_any_size_of_text(doors: Maker, size
             field = screen.fields[TEXT]
             assert isinstance(field, TextArea)
             assert len(field._rows) <= field._lay_out(doors.app.theme, field.area[0] + PAD, field.area[2] - 20)[1]
+
+
+def test_a_problem_of_a_message_leads_to_it_on_the_page(room: Maker) -> None:
+    check_says(room, "start: a | trap: b | start: c | at 5,5: d")
+    examine(room.editor)
+    room.frames(2)
+    x, y, w, _ = LAYOUT.findings
+    room.mouse(x + w / 3, y + 9)
+    screen = room.shown(MessagesScreen)
+    assert (screen.list.index, screen.focus) == (1, screen.fields[TEXT])
 
 
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:

@@ -26,6 +26,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import PackFinding, level_finding, pack_finding
+from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import BACK, FormPanel, MenuScreen
@@ -437,6 +438,24 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(driver: Menu
     assert Pack(path).index.accepted
     driver.mouse(BACK[0] + 10, BACK[1] + 10)
     driver.shown(PackScreen)
+
+
+def test_a_problem_of_a_message_leads_to_the_message(driver: MenuDriver, path: Path) -> None:
+    level = path / "00-0-first-steps.txt"
+    says = re.sub("\nsays: .*", "\nsays: start: Go | start: On | trap: Never", level.read_text("utf-8"))
+    level.write_text(says, "utf-8")
+    opened(driver)
+    driver.choose("Problems")
+    page = problem_page(driver)
+    row = next(k for k, problem in enumerate(page.problems) if "'Never' is never shown" in problem.text)
+    x, y, w, h = page.list.row_area(row)
+    driver.mouse(x + w / 2, y + h / 2)
+    driver.choose("Go there")
+    screen = driver.shown(MessagesScreen)
+    assert (screen.list.index, screen.messages[2].text, screen.focus) == (2, "Never", screen.fields[-1])
+    driver.choose("Cancel")
+    assert driver.shown(EditorScreen).session.source.path == level
+    driver.shown(EditorScreen).session.close()
 
 
 def test_problems_begin_with_the_first_open_one_whose_lines_lie_within_its_frame(
