@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
@@ -24,13 +24,13 @@ from ninja_game.sim.grid import Cell
 _ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
 
 DETAILS = {
-    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE)),
-    "gold": ("any", f"{_ONE}; 3: after so many"),
-    "death": ("deaths", "How many deaths: a number from 1 to 99"),
-    "after": ("seconds", "How many seconds: a number from 0.1 to 99.9"),
-    "at": ("12,5", "Column and row of the cell, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3"),
+    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE, "Which one")),
+    "gold": ("any", f"{_ONE}; 3: after so many", "Which, how many"),
+    "death": ("deaths", "How many deaths: a number from 1 to 99", "How many"),
+    "after": ("seconds", "How many seconds: a number from 0.1 to 99.9", "How many"),
+    "at": ("12,5", "Column and row, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3", "Cell, frame"),
 }
-"""What some moments may need besides: an example, and a hint."""
+"""What some moments may need besides: an example, a hint, and what the field is called."""
 
 DETAIL, TIME, TEXT = 1, -2, -1  # places of the fields in a row
 GRIP = 9.0  # px of the level from the edge of a frame within which a drag sizes it
@@ -93,6 +93,7 @@ class MessageRow:
         return next((f"{{{name}}}" for name in unknown_words(self.text)), "")
 
 
+@lru_cache(maxsize=256)
 def _fits(source: str) -> bool:
     try:
         return bool(parse_messages(source))

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
+from ninja_game.files.shown_text import counted
 from ninja_game.sim.grid import Cell, cell_at, cell_index, is_inside, middle_of
 from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL
@@ -176,6 +177,7 @@ def named_keys(text: str, name: Callable[[str], str]) -> str:
 
 
 def level_text(text: str, key: Callable[[str], str], gold: int, all_gold: int, deaths: int) -> str:
-    """A level's text with the names of keys, and with its numbers as they are now."""
+    """A level's text with the names of keys, and with its numbers as they are now; it says "1 death"."""
+    text = text.replace("{deaths} deaths", counted(deaths, "death"))
     counts = {"gold left": all_gold - gold, "gold taken": gold, "deaths": deaths}
     return named_keys(text, lambda word: str(counts[word]) if word in counts else key(word))

@@ -40,7 +40,7 @@ DESIGN_WORDINGS = _WORDINGS["design"]
 class Finding(NamedTuple):
     """An oddity. ``text``: the oddity; ``records``: numbers of the odd records; ``cells``: of odd tiles and places.
 
-    ``names``: the names of the odd objects in texts, '' if ``text`` has them.
+    ``names``: the names of the odd objects in texts, '' if ``text`` has them. ``message``: the odd message's number.
     """
 
     code: str  #: its name in docs/findings.md
@@ -48,6 +48,7 @@ class Finding(NamedTuple):
     records: tuple[int, ...] = ()
     cells: tuple[Cell, ...] = ()
     names: str = ""
+    message: int | None = None
 
     @property
     def sentence(self) -> str:

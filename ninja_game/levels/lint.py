@@ -245,21 +245,20 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         "gold": ("gold", gold), ALL_GOLD: ("gold", gold),
         "lock": ("locked door", doors[LOCKED]), "trap": ("trap door", doors[TRAP]),
     }  # fmt: skip
-    for message in parse_messages(says):
+    for number, message in enumerate(parse_messages(says)):
         missing, places = named.get(message.when, ("", ()))
+        cells, why = (message.cell,) if message.cell != NO_CELL else (), ""
         if missing and not any(message.is_about(*place) for place in places):
-            cells = (message.cell,) if message.cell != NO_CELL else ()
             why = f"there is no {missing}"
             if cells:
                 column, row = message.cell
                 why += f" at {column},{row}" if missing == "gold" else f" with its switch at {column},{row}"
-            yield level_finding("unseen-message", cells=cells, text=message.one_line, why=why)
         elif message.when == "gold" and message.number > len(gold):
             why = f"the level has {counted(len(gold), 'piece')} of gold"
-            yield level_finding("unseen-message", text=message.one_line, why=why)
         elif message.place and not ground.comes_near(*message.middle, message.reach):
             why = "the ninja never comes near its place"
-            yield level_finding("unseen-message", cells=(message.cell,), text=message.one_line, why=why)
+        if why:
+            yield level_finding("unseen-message", cells=cells, text=message.one_line, why=why)._replace(message=number)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:

@@ -279,11 +279,12 @@ def late_text(moment: Heard, ticks: int) -> str:
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
     """Findings about messages that others displace in the known run, except those after another of their moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
-    for message, coming in zip(messages, heard(messages, level, inputs) if inputs else [], strict=False):
+    comings = heard(messages, level, inputs) if inputs else []
+    for number, (message, coming) in enumerate(zip(messages, comings, strict=False)):
         moment = message.when, message.number, message.cell
         if coming and coming.tick is None and moment not in past:
             cell, why = cell_of(*(message.place or coming.spot)), late_text(coming, len(inputs))
-            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)
+            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)._replace(message=number)
         past.add(moment)
 
 

@@ -243,7 +243,7 @@ class EditedText:
         self.longest, self.most_lines = longest, most_lines
         self.cursor = self.anchor = len(text)
         self.was_full = False
-        self._past: list[tuple[str, int, int]] = []
+        self.past: list[tuple[str, int, int]] = []  #: what undo leads back to: text, cursor, anchor
         self._typed_to = -1  # where a word ends that is being typed: undone as a whole
 
     @property
@@ -294,7 +294,7 @@ class EditedText:
         self.was_full, line = len(line) > room, line[:room]
         goes_on = len(line) == 1 and not line.isspace() and first == last == self._typed_to
         if line != self.selected and not goes_on:
-            self._past.append((self.text, self.cursor, self.anchor))
+            self.past.append((self.text, self.cursor, self.anchor))
         self.text = self.text[:first] + line + self.text[last:]
         self.go(first + len(line))
         self._typed_to = self.cursor if len(line) == 1 else -1
@@ -302,8 +302,8 @@ class EditedText:
     def undo(self) -> None:
         """Take back the last word typed, with the space before it, or the last other change."""
         self._typed_to = -1
-        if self._past:
-            self.text, self.cursor, self.anchor = self._past.pop()
+        if self.past:
+            self.text, self.cursor, self.anchor = self.past.pop()
 
     def erase(self, direction: int, *, word: bool = False) -> None:
         """Delete the selection; else the character, or the word, at the right (1) or left (-1)."""

@@ -100,8 +100,8 @@ class Theme:
         *,
         colour: Colour | None = None,
         align: str = "left",
-    ) -> None:
-        """Texts in lines as wide as an area, from its top on, as large as fits; surplus lines are left out."""
+    ) -> float:
+        """Texts in lines as wide as an area, from its top on, as large as fits, without surplus lines; their height."""
         x, y, w, h = area
         scale, lines = self.scales[-1], [""]
         for scale in self.scales:
@@ -116,6 +116,7 @@ class Theme:
             drawn = self._fit(line, w, size * scale)
             top = y + spacing * scale * place
             self.lettering.draw(surface, drawn, left, top, size * scale, colour or self.palette.text, align=align)
+        return spacing * scale * len(lines)
 
     def fit(self, text: str, width: float, size: float, *, bold: bool = False) -> str:
         """The text, shortened by dots to fit a width in the normal size."""

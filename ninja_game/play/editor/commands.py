@@ -228,6 +228,7 @@ class EditorCommands(DocumentCommands):
         self.view.hint = f"Problem {self.view.finding + 1} of {len(findings)}: the list says how to fix it"
 
     def show_finding(self, finding: Finding) -> None:
+        """Select what a finding is about, and show it; a message on its page."""
         tools = self.session.tools
         places = finding_points(tools.draft.level, finding)
         records = [number for number in finding.records if number < len(tools.draft.objects)]
@@ -239,6 +240,8 @@ class EditorCommands(DocumentCommands):
             self.view.follow(*places[0])
             self.view.hovering = True
         self.view.hint = finding.advice
+        if finding.message is not None:
+            self.messages(finding.message)
 
     # --- playtesting and certifying ---
 

@@ -1,28 +1,19 @@
-"""The screen of a level's messages: a row for each message and its moment."""
+"""The screen of a level's messages: a list of them, and the selected one's fields beside the level."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import astuple, replace
 from functools import lru_cache, partial
 from itertools import product
 from math import dist
 
 import pygame
 
+from ninja_game.document import History
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import (
-    DETAILS,
-    GRIP,
-    TEXT,
-    TIME,
-    MessageRow,
-    listed,
-    messages_of,
-    moved_frame,
-    sizing,
-)
+from ninja_game.editor.message_rows import DETAILS, GRIP, TEXT, TIME, MessageRow, messages_of, moved_frame, sizing
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
@@ -34,9 +25,7 @@ from ninja_game.formats.messages import (
     MAX_MESSAGE_LINES,
     MAX_MESSAGES,
     NO_CELL,
-    NUMBER_WORDS,
     SEPARATOR,
-    TARGETS,
     WORDS,
     LevelMessage,
     arrow_targets,
@@ -44,7 +33,7 @@ from ninja_game.formats.messages import (
     parse_messages,
 )
 from ninja_game.levels.episodes import Mood
-from ninja_game.levels.findings import Finding
+from ninja_game.levels.findings import LEVEL_WORDINGS, Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.editor.sheet import said_at, things_of
@@ -61,17 +50,18 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
+from ninja_game.ui.list_view import BAR_WIDTH, ListView
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import Area, Palette, Theme, contains_point, mixed
-from ninja_game.ui.widgets import Button, Widget
+from ninja_game.ui.widgets import Button, Label, Widget
 from ninja_game.view.hud import Hud, HudView, PlacedMessage, placed_message
 from ninja_game.view.places import Things
 from ninja_game.view.sprites.thumbnail import open_exit, thumbnail
 
-_ROW, _TOP, _WIDE = 112, 60, 294
-SHOWN = 4  # rows that are shown at once
-END = _TOP + _ROW * SHOWN
+_LEFT, _TOP, _LIST, _WIDE, _FIELDS = 36, 60, 294, 432, 400  # left, upper edges, widths of list and fields, px
+_ROW = 17.5  # height of a message in the list, px: all have room
 _PICTURE: Area = (342, _TOP, 422, 422 * HEIGHT / WIDTH)  # where the level is shown with the selected message
+_ASIDE: Area = (484, 388, 280, 134)  # where what is wrong is said, and help
 
 _WHEN = {
     "start": ("At the start", "At each start, until the exit is open"),
@@ -89,15 +79,17 @@ _WHEN = {
 _HELP = (
     "What just happened replaces what is shown; a place or a time waits until that was read.",
     "An important message (!) comes at once, and others wait until it was read.",
-    f"{listed(KEYS)} become the player's keys.",
-    f"{listed(NUMBER_WORDS)} become the number: 'Deaths: {{deaths}}'.",
-    f"{listed(TARGETS)} have an arrow while their message is shown.",
     "In a level with messages the game gives no help of its own in play.",
+    "Ctrl+Z undoes the last change here, a text word by word; Ctrl+Y redoes it.",
 )
 
 _HANDLE = 9.0  # side of the handles of the selected frame, px of the level
 
 _IMPORTANT_HINT = "The selected message comes at once, and is not replaced before it was read: marked with !"
+
+_LIST_HINT = "Enter or a second click: to its text; Del takes it away, Ctrl+Up and Ctrl+Down move it"
+
+_WORDS_HINT = "For the text: a key becomes the player's, a number what it is then; switch and exit get arrows"
 
 _TIME_HINT = "Seconds that it stays: from 0.1 to 99.9; empty: as its letters and those of its moment need"
 
@@ -116,6 +108,11 @@ _Answer = tuple[_Question, list[Heard | None], Things]
 def _answer(question: _Question) -> _Answer:
     messages, level, inputs, tagged = question
     return question, heard(messages, level, inputs), _things_of_run(level, inputs, tagged=tagged)
+
+
+def _same(a: Sequence[object], b: Sequence[object]) -> int:
+    """How many items are the same from the beginning on."""
+    return next((k for k, (one, other) in enumerate(zip(a, b, strict=False)) if one != other), min(len(a), len(b)))
 
 
 class _Stage:
@@ -159,7 +156,17 @@ class MessagesScreen(MenuScreen):
         super().__init__(app)
         self.messages = messages_of(draft.says)
         self._draft = draft
-        self.number = 0  #: of the selected message
+        area = _LEFT, _TOP, _LIST + BAR_WIDTH + 4, _ROW * MAX_MESSAGES
+        self.list = ListView(area, _ROW, self._draw_row, self.select, selected=self._follow, opens=True)
+        self.list.hint, self.list.empty = _LIST_HINT, "No messages yet: Add makes one"
+        area = _LEFT, 516, _WIDE + BAR_WIDTH + 8, 40
+        self.words = ListView(area, 20, self._draw_word, self._put_word, hint=_WORDS_HINT)
+        self.words.columns = 6
+        self.words.fill(WORDS)
+        self.fields: list[Widget] = []  #: of the selected message: its moment, DETAIL, TIME, TEXT; none without one
+        self._fields_of: MessageRow | None = None
+        self._history = History(tuple(map(astuple, self.messages)))
+        self._step: object = None  #: what the last change belongs to: a word that is being typed, a drag
         self._stages: dict[tuple[object, ...], _Stage] = {}
         self._known: NewestJob[_Question, _Answer] = NewestJob(_answer)
         self._asked: _Question | None = None
@@ -167,87 +174,80 @@ class MessagesScreen(MenuScreen):
         self._ground = Ground(draft.level)
         self._look, self._certifying_inputs = mood, certifying_inputs
         self._before = self.source
-        self._wanted = at
         self._here, self._put, self._test = here, put, test
-        self.rows: list[list[Widget]] = []  #: by message its button, then its fields
         self._refused = False
         self._drag_begin: Cell = NO_CELL
         self._dragged_frame: Callable[[Cell], CellArea] | None = None  #: the frame for the pointer's cell
+        if at is not None and at < len(self.messages):
+            self.select(at)
 
     @property
     def source(self) -> str:
         return f" {SEPARATOR} ".join(message.source for message in self.messages)
 
-    def enter(self) -> None:
-        super().enter()
-        if (number := self._wanted) is not None:
-            self._wanted = None
-            self.select(number)
-
     def select(self, number: int, field: int = TEXT) -> None:
-        """Show the row of a message, with the focus on a field of it."""
-        self.number = number
+        """Select a message, with the focus on a field of it."""
+        self.list.index = number
         self.enter()
-        self.focus, self.redraw = self.rows[number][field], True
+        self.focus, self.redraw = self.fields[field], True
+
+    def _follow(self, _: int) -> None:
+        """Another message may have been selected: show its fields."""
+        if self.selected is not self._fields_of:
+            self.enter()
 
     def build(self) -> Sequence[Widget]:
-        self.rows = [self._row(number) for number in range(len(self.messages))]
-        rows = [widget for row in self.rows[self.first : self.first + SHOWN] for widget in row]
-        y, some, full = END + 14, bool(self.messages), len(self.messages) >= MAX_MESSAGES
-        if len(self.messages) > SHOWN:
-            pages, page = -(-len(self.messages) // SHOWN), self.first // SHOWN
-            text, others = f"Page {page + 1} of {pages}", (page + 1) % pages * SHOWN
-            rows.append(Button((600, 15, 98, 26), text, partial(self.select, others), hint="The others: the wheel"))
+        self._fields_of = message = self.selected
+        self.list.focusable = bool(message)
+        self.list.fill([*self.messages])
+        full = len(self.messages) >= MAX_MESSAGES
         most = f"{MAX_MESSAGES} is the most: remove one first" if full else ""
-        up, down = (partial(self._reorder, by) if some else None for by in (-1, 1))
-        buttons: list[tuple[float, float, str, Action | None, str]] = [
-            (36, 48, "Add", None if full else self._add, most),
-            (88, 54, "Copy", self._copy if some and not full else None, "The selected message once more: Ctrl+D"),
-            (146, 44, "Up", up, "The selected message earlier: Ctrl+Up; with Shift the first"),
-            (194, 56, "Down", down, "The selected message later: Ctrl+Down; with Shift the last"),
-            (254, 76, "Remove", self._remove if some else None, "Take the selected message away"),
-            (450, 98, "Test", self._try, "Play from just before the selected message; Esc comes back"),
-            (558, 98, "OK", self._accept, "Ctrl+Enter"),
-            (666, 98, "Cancel", self.close, ""),
+        up, down = (partial(self._reorder, by) if message else None for by in (-1, 1))
+        copy, remove = (self._copy, self._remove) if message else (None, None)
+        buttons: list[tuple[float, float, float, str, Action | None, str]] = [
+            (36, 352, 48, "Add", None if full else self._add, most),
+            (88, 352, 54, "Copy", None if full else copy, "The selected message once more: Ctrl+D"),
+            (146, 352, 44, "Up", up, "The selected message earlier: Ctrl+Up; with Shift the first"),
+            (194, 352, 56, "Down", down, "The selected message later: Ctrl+Down; with Shift the last"),
+            (254, 352, 76, "Remove", remove, "Take it away; Ctrl+Z brings it back"),
+            (484, 528, 88, "Test", self._try, "Play from just before the selected message; Esc comes back"),
+            (580, 528, 88, "OK", self._accept, "Ctrl+Enter"),
+            (676, 528, 88, "Cancel", self.close, ""),
         ]
-        mark = self._mark if some else None
-        self._important = Button((342, y, 98, 28), "Important: no", mark, hint=_IMPORTANT_HINT, size=10.5)
-        fixed = [Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, w, text, do, hint in buttons]
-        return [*rows, *fixed[:5], self._important, *fixed[5:]]
+        fixed = [Button((x, y, w, 28), text, do, hint=hint, size=10.5) for x, y, w, text, do, hint in buttons]
+        self.fields = self._fields(message) if message else []
+        important = "Yes" if message and message.important else "No"
+        mark = Button((402, _FIELDS, 66, 26), important, self._mark, hint=_IMPORTANT_HINT)
+        shown = [*self.fields[:TEXT], mark, self.fields[TEXT], self.words] if message else []
+        return [self.list, *fixed[:5], *shown, *fixed[5:]]
 
-    @property
-    def first(self) -> int:
-        """The number of the first message that is shown."""
-        return self.number // SHOWN * SHOWN
-
-    def _row(self, number: int) -> list[Widget]:
-        message, y = self.messages[number], _TOP + _ROW * (number % SHOWN)
-        area = 36, y + 31, _WIDE, 60
+    def _fields(self, message: MessageRow) -> list[Widget]:
+        """Fields for a message: its moment, DETAIL, TIME, TEXT."""
         new_line = f"Enter begins a new line: {MAX_MESSAGE_LINES} at most; Ctrl+Enter is OK"
+        area = _LEFT, _FIELDS + 31, _WIDE, 72
         text = TextArea(
             area, "What is said", message.text, lambda _: None, longest=MAX_LETTERS, most_lines=MAX_MESSAGE_LINES
         )
 
         def put(typed: str) -> None:
             message.text = typed
-            known = f"Words: {listed(WORDS)}" if "{" in typed else new_line
-            text.hint = message.problem[1] if message.unknown else known
+            text.hint = message.problem[1] if message.unknown else new_line
 
         put(message.text)
         text.put = put
         change = partial(self._change_moment, message)
-        moment = Button(
-            (36, y, 118, 28), f"{_WHEN[message.when][0]}...", lambda: self._ask_moment(change, message.when)
-        )
-        details: list[Widget] = []
+        detail: Widget = Label((_LEFT, _FIELDS, 0, 0), "")  # in its place, so that the focus keeps its own
+        name, width = f"{_WHEN[message.when][0]}...", 254
         if message.when in DETAILS:
-            (prompt, hint), detail = DETAILS[message.when], partial(setattr, message, "detail")
-            details.append(TextEntry((157, y, 86, 28), prompt, message.detail, detail, longest=11, hint=hint))
+            prompt, hint, _ = DETAILS[message.when]
+            put_detail, width = partial(setattr, message, "detail"), 114
+            detail = TextEntry((160, _FIELDS, 130, 26), prompt, message.detail, put_detail, longest=11, hint=hint)
+        moment = Button((_LEFT, _FIELDS, width, 26), name, lambda: self._ask_moment(change, message.when))
         usual = shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND
         put_time = partial(setattr, message, "time")
         auto = "while there" if message.when == "at" else f"auto ({usual} s)"
-        time = TextEntry((246, y, 84, 28), auto, message.time, put_time, longest=6, hint=_TIME_HINT)
-        return [moment, *details, time, text]
+        time = TextEntry((300, _FIELDS, 92, 26), auto, message.time, put_time, longest=6, hint=_TIME_HINT)
+        return [moment, detail, time, text]
 
     def _ask_moment(self, choose: Callable[[str], object], at: str) -> None:
         rows: list[MenuRow] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
@@ -261,18 +261,20 @@ class MessagesScreen(MenuScreen):
 
     @property
     def selected(self) -> MessageRow | None:
-        return self.messages[self.number] if self.number < len(self.messages) else None
+        return self.messages[self.list.index] if self.list.index < len(self.messages) else None
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         """A click in the picture selects what lies there, or puts the selected message there; a drag frames it.
 
-        Beside the picture the wheel turns the page.
+        Beside the picture the wheel selects the next message.
         """
         if event.type == pygame.MOUSEWHEEL:
-            number = self.first + (SHOWN if event.y < 0 else -SHOWN)
-            if self._level_point(pygame.mouse.get_pos()) is None and 0 <= number < len(self.messages):
-                self.select(number)
+            if self._level_point(pygame.mouse.get_pos()) is None:
+                self.list.select(self.list.index - event.y)
+                self.redraw = True
             return
+        if event.type == pygame.MOUSEBUTTONUP:
+            self._dragged_frame = None
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
         drags = event.type == pygame.MOUSEMOTION and event.buttons[0] and self._dragged is None
         at = self._level_point(event.pos) if pressed or drags else None
@@ -307,7 +309,7 @@ class MessagesScreen(MenuScreen):
             self.enter()
         elif sized:
             self._dragged_frame = sized
-        elif away < near and number != self.number:
+        elif away < near and number != self.list.index:
             self.select(number)
         elif parsed and all(abs(a - b) < half for a, b, half in zip(at, parsed.middle, parsed.reach, strict=True)):
             self._dragged_frame = partial(moved_frame, parsed.frame, cell)
@@ -335,33 +337,65 @@ class MessagesScreen(MenuScreen):
         self._ask_moment(choose, "start")
 
     def _put_at(self, number: int, message: MessageRow, others: list[MessageRow]) -> None:
-        """Show the messages with one at that place among others, selected; a button keeps the focus."""
-        number = min(max(0, number), len(others))
-        behind = self.widgets.index(self.focus) - len(self.widgets) if self.focus else 0
-        in_row = any(self.focus in row for row in self.rows)
-        self.messages = [*others[:number], message, *others[number:]]
-        self.select(number)
-        self.focus = self.focus if in_row else self.widgets[behind]
+        """Show the messages with one at that place among others, selected."""
+        self.list.index = min(max(0, number), len(others))
+        self.messages = [*others[: self.list.index], message, *others[self.list.index :]]
+        self.enter()
 
     def _copy(self) -> None:
         if self.selected and len(self.messages) < MAX_MESSAGES:
-            self._put_at(self.number + 1, replace(self.selected), self.messages)
+            self._put_at(self.list.index + 1, replace(self.selected), self.messages)
 
     def _reorder(self, by: int) -> None:
         """Move the selected message by so many places, with Shift to the end."""
         if selected := self.selected:
             far = MAX_MESSAGES if pygame.key.get_mods() & pygame.KMOD_SHIFT else 1
             others = [other for other in self.messages if other is not selected]
-            self._put_at(self.number + by * far, selected, others)
+            self._put_at(self.list.index + by * far, selected, others)
 
     def _mark(self) -> None:
         if self.selected:
             self.selected.important = not self.selected.important
+            self.enter()
 
     def _remove(self) -> None:
-        del self.messages[self.number]
-        self.number = min(self.number, max(0, len(self.messages) - 1))
+        """Take the selected message away: the next one is selected, else the last."""
+        del self.messages[self.list.index : self.list.index + 1]
+        self.list.index = min(self.list.index, max(0, len(self.messages) - 1))
         self.enter()
+
+    def _note(self) -> None:
+        """Put what has changed since the last event into the history; a typed word, and a drag, is one step."""
+        edited, values = getattr(self.focus, "edited", None), tuple(map(astuple, self.messages))
+        step = self._dragged_frame or (edited and (edited, len(edited.past)))
+        if values != self._history.draft:
+            if step is None or step != self._step:
+                self._history.begin()
+            self._history.change(values)
+            self._step = step
+
+    def _restore(self, step: Callable[[], bool]) -> None:
+        """Undo or redo; the first message that it changes is selected, with the cursor behind what it changes."""
+        before, field = self._history.draft, self.focus
+        if step():
+            self._step, rows = None, self._history.draft
+            self.messages = [MessageRow(*values) for values in rows]
+            self.list.index = min(_same(before, rows), max(0, len(rows) - 1))
+            self.enter()
+            if isinstance(field, TextEntry) and isinstance(self.focus, TextEntry) and field.text != self.focus.text:
+                behind = _same(field.text[::-1], self.focus.text[::-1])
+                self.focus.edited.go(len(self.focus.text) - behind)
+            self.redraw = True
+
+    def _put_word(self, number: int) -> None:
+        """Put a word in braces into the text, at its cursor."""
+        field, word = self.fields[TEXT], f"{{{WORDS[number]}}}"
+        if isinstance(field, TextEntry) and len(field.text + word) <= MAX_LETTERS:
+            field.edited.go(field.edited.cursor)
+            field.text_event(pygame.Event(pygame.TEXTINPUT, text=word))
+            self.focus = field
+        else:
+            self.app.notify(f"{word} does not fit: {MAX_LETTERS} letters are the most")
 
     def _is_sound(self) -> bool:
         """Whether all messages are valid; else the first that is not gets the focus and shows the problem."""
@@ -382,7 +416,7 @@ class MessagesScreen(MenuScreen):
 
     def _try(self) -> None:
         if self._is_sound():
-            self._test(self.number, self._eye(self.selected) if self.selected else None, self.source)
+            self._test(self.list.index, self._eye(self.selected) if self.selected else None, self.source)
 
     def close(self) -> None:
         """Leave; ask first whether changes are kept."""
@@ -392,20 +426,28 @@ class MessagesScreen(MenuScreen):
             ask_to_keep(self.app, "The messages are changed", self._accept)
 
     def capture(self, event: InputEvent) -> bool:
-        """Typed letters go to the text of the row with the focus; some keys do what the buttons do."""
+        """Typed letters go to the text unless another field has the focus; some keys do what the buttons do."""
+        self._note()
         raw = event.raw
-        keys = chord(raw).replace("shift+", "") if raw.type == pygame.KEYDOWN else ""
-        by = {"ctrl+up": -1, "ctrl+down": 1}.get(keys, 0)
-        if keys in {"ctrl+return", "ctrl+kp_enter"}:
-            self._accept()
-            return True
-        if by or keys == "ctrl+d":
-            self._reorder(by) if by else self._copy()
+        keys = chord(raw) if raw.type == pygame.KEYDOWN else ""
+        commands: dict[str, Action] = {
+            "ctrl+z": partial(self._restore, self._history.undo),
+            "ctrl+y": partial(self._restore, self._history.redo),
+            "ctrl+d": self._copy,
+            "ctrl+up": partial(self._reorder, -1),
+            "ctrl+down": partial(self._reorder, 1),
+            **dict.fromkeys(("ctrl+return", "ctrl+kp_enter"), self._accept),
+        }
+        if self.focus is self.list:
+            commands["delete"] = self._remove
+        if command := commands.get("ctrl+y" if keys == "ctrl+shift+z" else keys.replace("shift+", "")):
+            command()
+            self.redraw = True
             return True
         names = {pygame.TEXTINPUT: "text", pygame.KEYDOWN: "unicode"}
         typed = getattr(raw, names.get(raw.type, ""), "")
-        if typed.strip() and typed.isprintable() and not isinstance(self.focus, TextEntry):
-            self.focus = next((row[-1] for row in self.rows if self.focus in row), self.focus)
+        if typed.strip() and typed.isprintable() and not isinstance(self.focus, TextEntry) and self.fields:
+            self.focus = self.fields[TEXT]
         return super().capture(event)
 
     def act(self, action: str, *, held: bool = False) -> None:
@@ -423,46 +465,69 @@ class MessagesScreen(MenuScreen):
     def draw_frame(self, surface: pygame.Surface) -> None:
         super().draw_frame(surface)
         theme = self.theme
-        self.number = next((k for k, row in enumerate(self.rows) if self.focus in row), self.number)
-        self._important.text = f"Important: {'yes' if self.selected and self.selected.important else 'no'}"
         self._ask_about_run()
-        for number in range(self.first, min(self.first + SHOWN, len(self.messages))):
-            self._draw_notes(surface, number)
         count = f"{len(self.messages)} of {MAX_MESSAGES}"
         theme.text(surface, count, 764, 24, size=11, colour=theme.palette.on_tile, align="right")
-        self._draw_level(surface, self.selected)
-        x, y, w, h = _PICTURE
-        top = y + h + 10
-        if self.selected and self.selected.problem[1] and (wrong := self._wrong(self.selected)):
-            text = f"Message {self.number + 1} is wrong. {wrong}"
-            theme.paragraph(surface, [text], (x, top, w, 34), 13, 17, colour=theme.palette.bad)
-            top += 38
-        below = x, top, w, END - top
-        theme.paragraph(surface, self._help_texts(), below, 10, 13.5, colour=theme.palette.faint)
+        theme.panel(surface, _LEFT, _TOP, _LIST, _ROW * MAX_MESSAGES)
+        message = self.selected
+        self._draw_level(surface, message)
+        x, y, w, h = _ASIDE
+        texts = self._help_texts()
+        if message:
+            self._draw_notes(surface, message)
+            odd, moment = self._unseen(message), self._heard(message)
+            wrong, remark = self._wrong(message), self._wait_of(message)
+            if wrong or remark:
+                text = f"Message {self.list.index + 1} is wrong. {wrong}" if wrong else remark
+                late = LEVEL_WORDINGS["late-message"].hint if moment and late_text(moment, 1) else ""
+                advice = odd[0].hint if odd else late
+                colour = theme.palette.bad if wrong else theme.palette.text
+                high = theme.paragraph(surface, [text, advice], (x, y, w, 70), 11, 14, colour=colour) + 6
+                texts, y, h = texts[:1], y + high, h - high
+        theme.paragraph(surface, texts, (x, y, w, h), 10, 13, colour=theme.palette.faint)
 
-    def _draw_notes(self, surface: pygame.Surface, number: int) -> None:
-        """Draw the number of a message, its problem, and the count of its letters around its fields."""
-        theme, palette, message = self.theme, self.theme.palette, self.messages[number]
-        row, length = _TOP + _ROW * (number % SHOWN), len(message.text)
-        for place, mark in enumerate((str(number + 1), IMPORTANT * message.important)):
-            theme.text(surface, mark, 32, row + 36 + 34 * place, size=9, bold=True, align="right")
-        colour = palette.faint if length < MAX_LETTERS else palette.bad
-        theme.text(surface, f"{length} of {MAX_LETTERS}", 36 + _WIDE, row + 95, size=8.5, colour=colour, align="right")
-        wrong = self._wrong(message)
-        if not wrong and number == self.number and length >= MAX_LETTERS:
-            wrong = "Full: what is typed beyond is left out"
-        text, colour = (
-            (wrong, palette.bad) if wrong else (self._wait_of(message) or self._turn_of(message), palette.faint)
-        )
-        theme.text(surface, text, 36, row + 95, size=8.5, colour=colour, width=_WIDE - 56)
-        if number == self.number:
-            theme.canvas.fill_rect(surface, palette.accent, 32.5, row, 2, 91)
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        """A line of the list: what is odd, the number, whether it is important, the moment, the first words."""
+        (x, y, w, h), palette, message = area, theme.palette, self.messages[index]
+        chosen, top = index == self.list.index, y + (h - 9) / 2
+        if chosen:
+            theme.row(surface, (x + 1, y, w - 2, h), chosen=True, focused=focused, radius=3)
+        if wrong := self._wrong(message):
+            theme.canvas.polygon(surface, palette.bad, [(x + 4, y + h - 5), (x + 12, y + h - 5), (x + 8, y + 4.5)])
+        elif self._wait_of(message):
+            theme.canvas.circle(surface, palette.faint, (x + 8, y + h / 2), 3.5, 1.5)
+        write = partial(theme.text, surface, y=top, size=9, bold=chosen, height=h)
+        colour = palette.bad if wrong else palette.text
+        write(str(index + 1), x=x + 32, align="right", width=18)
+        if message.important:
+            write(IMPORTANT, x=x + 35)
+        write(message.moment.capitalize(), x=x + 42, width=86, colour=colour)
+        words, room = " ".join(message.text.split()) or "(empty)", w - 142
+        write(theme.fit(words, room, 9 * theme.scales[0], bold=chosen), x=x + 134, width=room)
+
+    def _draw_word(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        theme.row(surface, (x, y + 1, w - 4, h - 2), chosen=focused, focused=focused, radius=3)
+        middle = x + w / 2 - 2
+        theme.text(surface, f"{{{WORDS[index]}}}", middle, y + 5, size=9, align="centre", width=w - 8, height=h - 2)
+
+    def _draw_notes(self, surface: pygame.Surface, message: MessageRow) -> None:
+        """Draw what the fields are about, and below the text its letters and which of its moment it is."""
+        theme, palette, length = self.theme, self.theme.palette, len(message.text)
+        detail = DETAILS[message.when][2] if message.when in DETAILS else ""
+        for x, w, text in (_LEFT, 114, "When"), (160, 130, detail), (300, 92, "Seconds"), (402, 66, "Important"):
+            theme.text(surface, text, x, _FIELDS - 13, size=9, colour=palette.faint, width=w)
+        full = length >= MAX_LETTERS
+        colour, y, right = palette.bad if full else palette.faint, _FIELDS + 104, _LEFT + _WIDE
+        theme.text(surface, f"{length} of {MAX_LETTERS}", right, y, size=8.5, colour=colour, align="right")
+        note = "Full: what is typed beyond is left out" if full else self._turn_of(message)
+        theme.text(surface, note, _LEFT, y, size=8.5, colour=colour, width=_WIDE - 100)
 
     def _wrong(self, message: MessageRow) -> str:
         """The problem of a message, "" if it has none. An empty field is one only after OK was refused."""
         field, problem = message.problem
         if message.unknown:
-            return f"There is no {message.unknown}: the words are at the right"
+            return f"There is no {message.unknown[:20]}: the words are below"
         if problem:
             return problem if self._refused or field == TIME or (field != TEXT and message.detail) else ""
         for finding in self._unseen(message):
@@ -470,6 +535,7 @@ class MessagesScreen(MenuScreen):
         return self._wait_of(message, lost=True)
 
     def _help_texts(self) -> list[str]:
+        """About the selected message, then about all."""
         texts, selected = [], self.selected
         if selected:
             name, when = _WHEN[selected.when]
@@ -478,8 +544,7 @@ class MessagesScreen(MenuScreen):
             texts.append("In the picture: a click puts it, a drag draws its frame, moves it or an edge.")
         if len(self._things_of(selected)) > 1:
             texts.append("A click in the picture on one of them: only when it is that one.")
-        advice = [finding.advice for finding in self._unseen(selected)]
-        return [*texts, *advice, *(_HELP[2:] if advice or (selected and selected.problem[1]) else _HELP)]
+        return [" ".join(texts), " ".join(_HELP)]
 
     def _unseen(self, message: MessageRow | None) -> list[Finding]:
         return [*unseen_messages(message.source, self._ground)] if message and not message.problem[1] else []
@@ -588,10 +653,10 @@ class MessagesScreen(MenuScreen):
 
     def _draw_number(self, surface: pygame.Surface, number: int, at: Point) -> None:
         """The number of a message that is not selected, where it is said."""
-        scale, palette = _PICTURE[2] / WIDTH, self.theme.palette
+        scale, palette, write = _PICTURE[2] / WIDTH, self.theme.palette, self.theme.text
         x, y = _PICTURE[0] + at[0] * scale, _PICTURE[1] + at[1] * scale
         self.theme.canvas.circle(surface, palette.accent, (x, y), 6)
-        self.theme.text(surface, str(number + 1), x, y - 4.5, size=9, align="centre", colour=palette.background)
+        write(surface, str(number + 1), x, y - 4.5, size=9, align="centre", colour=palette.background, width=11)
 
     def _things_of(self, message: MessageRow | None) -> list[Point]:
         """The objects that a message can be about, px: the gold, or the switches of its moment."""

@@ -1,7 +1,9 @@
 """What a level says to its player, made row by row in the editor."""
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
@@ -11,12 +13,12 @@ import pytest
 
 from ninja_game.editor import packs
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import TEXT, TIME, MessageRow
+from ninja_game.editor.message_rows import DETAIL, TEXT, TIME, MessageRow
 from ninja_game.editor.playtests import lead_in, place_before
 from ninja_game.editor.solver import search_of
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, WORDS, level_text, parse_messages
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
@@ -24,6 +26,7 @@ from ninja_game.play.editor.messages import _PICTURE, _WHEN, MessagesScreen
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import message_places
+from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import Phase
 from ninja_game.play.menu_screen import Menu
@@ -40,11 +43,11 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import TEXT_SIZES, Palette, Theme
-from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button
+from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button, Label
 from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import drawn
-from tests.support.level_maker import ROOM, Maker
+from tests.support.level_maker import ROOM, Maker, examine
 
 LONG = "to the right and take the gold before you leave and then look for"
 """Its lines are broken elsewhere if they are measured in small letters."""
@@ -86,9 +89,17 @@ def texts_of(screen: MessagesScreen) -> str:
 
 
 def select(maker: Maker, row: int, column: int = -1) -> None:
-    """Click into a field of a row."""
-    maker.mouse(*maker.shown(MessagesScreen).rows[row][column].centre)
+    """Click on a message in the list, then into a field of it."""
+    screen = maker.shown(MessagesScreen)
+    x, y, _, h = screen.list.row_area(row)
+    maker.mouse(x + 60, y + h / 2)
+    maker.mouse(*screen.fields[column].centre)
     maker.frames()
+
+
+def words(maker: Maker) -> str:
+    """All texts that are drawn now, one after the other."""
+    return " ".join(re.findall(r"""^text ['"](.*)['"] at""", drawn(maker.app), re.MULTILINE))
 
 
 def with_time_in_hand(maker: Maker) -> MessagesScreen:
@@ -146,11 +157,10 @@ def in_picture(column: float, row: float) -> tuple[float, float]:
 
 def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.choose_in_menu("Messages...")
-    screen = room.shown(MessagesScreen)
+    room.shown(MessagesScreen)
     add(room, "run")
     add(room, "")
-    choice = screen.rows[1][0]
-    room.mouse(*choice.centre)
+    select(room, 1, 0)
     room.choose("Exit opens")
     add(room, "on")
     select(room, 1)
@@ -168,7 +178,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
 def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: Maker) -> None:
     screen = opened(room)
     add(room, "")
-    screen.focus = screen.rows[0][0]
+    screen.focus = screen.list
     room.type("a b")
     assert (screen.messages[0].when, screen.messages[0].text) == ("start", "a b")
 
@@ -192,9 +202,9 @@ def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> Non
     draft = with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),)))
     room.editor.session.tools.history.change(replace(draft, says="start: a | gold: b | start: c | switch: d"))
     opened(room)
-    shown = drawn(room.app)
-    for text, times in (("No. 1 of 2", 1), ("auto (6 s)", 3), ("No. 2 of 2", 1), ("auto (12 s)", 1)):
-        assert shown.count(f"text '{text}'") == times
+    for row, texts in enumerate((("No. 1 of 2", "auto (6 s)"), ("auto (6 s)",), ("No. 2 of 2",), ("auto (12 s)",))):
+        select(room, row)
+        assert all(f"text '{text}'" in drawn(room.app) for text in texts)
 
 
 def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usual(room: Maker) -> None:
@@ -202,7 +212,7 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
     room.type("0")
     room.choose("OK")
     assert screen._refused
-    assert screen.focus is screen.rows[0][TIME]
+    assert screen.focus is screen.fields[TIME]
     room.press("backspace")
     room.type("25")
     room.press("return")
@@ -210,29 +220,48 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
     assert opened(room).source == room.draft.says
 
 
-def test_the_most_messages_lie_on_four_pages(room: Maker) -> None:
+def test_all_messages_are_seen_in_a_list_in_which_one_is_selected(room: Maker) -> None:
     screen = opened(room)
     add(room, *"abcdefghijklmnop")
-    x, y, *_ = screen.rows[4][TEXT].area
     assert not room.button("Add").enabled
-    assert screen.first == 12
-    room.choose("Page 4 of 4")
-    for notches, first in ((-1, 4), (1, 0), (2, 0), (-1, 4), (-1, 8), (-1, 12), (-1, 12), (1, 8), (1, 4)):
-        room.wheel(notches, x + 9, y + 9)
-        assert screen.first == first
-        assert screen.focus in screen.widgets
-    room.wheel(1, *in_picture(9, 9))
-    assert screen.first == 4
-    assert [widget in screen.widgets for widget in (screen.rows[3][0], screen.rows[4][0])] == [0, 1]
-    assert "text 'Page 2 of 4'" in drawn(room.app)
-    room.choose("Page 2 of 4")
-    assert screen.focus is screen.rows[8][TEXT]
-    room.type("z")
+    assert (screen.list.index, screen.focus) == (15, screen.fields[TEXT])
+    assert all(re.search(rf"text '{letter}' at 170,.* size 9", drawn(room.app)) for letter in "abcdefghijklmnop")
     screen.messages[5].text = ""
+    x, y, _, h = screen.list.row_area(3)
+    room.mouse(x + 60, y + h / 2)
+    assert (screen.list.index, screen.focus) == (3, screen.list)
+    room.press("down", "down", "up")
+    assert (screen.list.index, getattr(screen.fields[TEXT], "text", "")) == (4, "e")
+    room.mouse(x + 60, y + h / 2, click=False)
+    assert screen.list.index == 4, "the way of the mouse to the fields selects nothing"
+    room.mouse(x + 60, y + h / 2)
+    assert (screen.list.index, screen.focus) == (3, screen.list)
+    room.mouse(x + 60, y + h / 2)
+    assert (screen.list.index, screen.focus) == (3, screen.fields[TEXT]), "a second click leads to the text"
+    for notches, number in ((-1, 4), (1, 3), (2, 1), (9, 0)):
+        room.wheel(notches, x + 9, 450)
+        assert screen.list.index == number
+    room.wheel(-1, *in_picture(9, 9))
+    assert screen.list.index == 0
     room.choose("OK")
-    assert screen.focus is screen.rows[5][TEXT], "what is wrong is shown, on whatever page it is"
+    assert (screen.list.index, screen.focus) == (5, screen.fields[TEXT]), "what is wrong is shown"
     room.choose("Remove")
-    assert texts_of(screen) == "abcdeghizjklmnop"
+    assert texts_of(screen) == "abcdeghijklmnop"
+
+
+def test_a_line_of_the_list_says_when_and_marks_what_is_wrong_or_late(
+    room: Maker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(400)))
+    opened(room, "at 12,5 3x1!: Jump | death 2: No | trap: Shut | after 1 s: Go | after 2 s: On")
+    shown = drawn(room.app)
+    labels = "At 12,5 3x1", "Death 2", "Trap", "After 1 s", "After 2 s"
+    assert [re.findall(rf"text '{label}' at 78,.* (\w+)$", shown, re.MULTILINE) for label in labels] == [
+        ["text"], ["text"], ["bad"], ["text"], ["text"]
+    ]  # fmt: skip
+    assert len(re.findall("^text '!' at 71,", shown, re.MULTILINE)) == 1
+    assert len(re.findall("^polygon bad", shown, re.MULTILINE)) == 1
+    assert len(re.findall("^circle faint .* width 1.5", shown, re.MULTILINE)) == 1
 
 
 def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker) -> None:
@@ -246,7 +275,7 @@ def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker)
     for point, selected in (((300.0, 300.0), 3), ((120.0, 540.0), 4), ((132.0, 132.0), 1)):
         left, top, wide, _ = _PICTURE
         room.mouse(left + point[0] * wide / 792, top + point[1] * wide / 792)
-        assert screen.number == selected
+        assert screen.list.index == selected
 
 
 def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: Maker) -> None:
@@ -256,7 +285,7 @@ def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: 
         assert "There is no" not in drawn(room.app)
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
         room.frames()
-    assert "text 'There is no {fly}: the words are at the right'" in drawn(room.app)
+    assert "There is no {fly}: the words are below" in words(room)
     assert screen.focus
     assert screen.focus.hint.startswith("{fly} is not one of {left}, ")
 
@@ -295,8 +324,7 @@ def test_what_is_wrong_keeps_the_focus_and_is_said(
     show(screen, MessageRow("start", "", "fine"), message)
     room.choose("OK")
     assert room.top() is screen
-    words = wanted if message.unknown == "" else "There is no {fly}"
-    assert words in drawn(room.app)
+    assert (wanted if message.unknown == "" else "There is no {fly}") in words(room)
     assert not room.app.notice, "nothing lies over the buttons"
     field = screen.focus
     assert isinstance(field, TextEntry)
@@ -341,7 +369,7 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     for cell, selected in (((20, 12), 1), ((6, 5), 0), ((10, 10), 0)):
         room.mouse(*in_picture(*cell))
         room.frames()
-        assert (screen.number, screen.focus) == (selected, screen.rows[selected][-1])
+        assert (screen.list.index, screen.focus) == (selected, screen.fields[TEXT])
     assert [each.detail for each in screen.messages] == ["10,10", "20,12", ""]
     select(room, 2)
     room.mouse(*in_picture(25, 3))
@@ -410,7 +438,7 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
     screen.messages[0].text = ""
     room.choose("Test")
     assert room.top() is screen
-    assert "Type what is said" in drawn(room.app)
+    assert "Type what is said" in words(room)
 
 
 def test_a_test_of_a_message_begins_where_the_ninja_lives_on_the_way_to_it(room: Maker) -> None:
@@ -536,7 +564,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     screen = room.shown(MessagesScreen)
-    assert screen.focus is screen.rows[3][-1]
+    assert (screen.list.index, screen.focus) == (3, screen.fields[TEXT])
     assert room.draft == before
 
 
@@ -550,7 +578,7 @@ def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker)
     room.drag(bubble)
     room.drag(bubble)
     screen = room.shown(MessagesScreen)
-    assert screen.focus is screen.rows[2][TEXT]
+    assert (screen.list.index, screen.focus) == (2, screen.fields[TEXT])
     assert room.draft == before
 
 
@@ -579,14 +607,8 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
     start = boxes[-1]
-    assert screen.rows[0][-1].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", "no braces in it"
-    field = screen.rows[1][-1]
-    room.mouse(*field.centre)
-    assert isinstance(field, TextEntry)
-    field.put("{jump}")
-    assert "jump" in field.hint
-    screen.messages[1].text = "Here"
-    room.frames()
+    assert screen.fields[TEXT].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", "no braces in it"
+    select(room, 1)
     screen.redraw = True
     room.frames()
     assert boxes[-1].lines == ["Here"]
@@ -674,7 +696,7 @@ def test_without_a_known_run_a_test_goes_on_from_the_last_one(doors: Maker, monk
 
 def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -> None:
     screen = opened(doors, "lock: One | gold: Two | start: Go")
-    assert "A click in the picture on one of them: only when it is that one." in drawn(doors.app)
+    assert "A click in the picture on one of them: only when it is that one." in words(doors)
     doors.mouse(*in_picture(11, 22))
     assert screen.messages[0].detail == "11,22"
     assert "text '11,22'" in drawn(doors.app)
@@ -699,25 +721,25 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
     screen = opened(room, "start: a | switch: b | after 9 s for 4 s: c")
     select(room, 2)
     room.choose("Up")
-    assert (texts_of(screen), screen.number) == ("acb", 1)
+    assert (texts_of(screen), screen.list.index) == ("acb", 1)
     room.choose("Copy")
-    assert (texts_of(screen), screen.number) == ("accb", 2)
+    assert (texts_of(screen), screen.list.index) == ("accb", 2)
     assert screen.source == "start: a | after 9 s for 4 s: c | after 9 s for 4 s: c | switch: b"
     select(room, 2)
     room.type("d")
     assert texts_of(screen) == "accdb", "a copy of its own"
     room.chord("down", pygame.KMOD_LCTRL)
-    assert (texts_of(screen), screen.focus) == ("acbcd", screen.rows[3][TEXT])
+    assert (texts_of(screen), screen.list.index, screen.focus) == ("acbcd", 3, screen.fields[TEXT])
     room.chord("down", pygame.KMOD_LCTRL)
     assert texts_of(screen) == "acbcd", "it is the last"
     with patch.object(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT):
         room.chord("up", pygame.KMOD_LCTRL | pygame.KMOD_LSHIFT)
-    assert (texts_of(screen), screen.number) == ("cdacb", 0)
+    assert (texts_of(screen), screen.list.index) == ("cdacb", 0)
     room.chord("d", pygame.KMOD_LCTRL)
-    assert (texts_of(screen), screen.number) == ("cdcdacb", 1)
+    assert (texts_of(screen), screen.list.index) == ("cdcdacb", 1)
     screen.focus = next(widget for widget in screen.widgets if getattr(widget, "text", "") == "Down")
     room.press("return", "return")
-    assert (texts_of(screen), screen.number) == ("cdaccdb", 3), "the button keeps the focus"
+    assert (texts_of(screen), screen.list.index) == ("cdaccdb", 3), "the button keeps the focus"
     for _ in range(MAX_MESSAGES):
         room.chord("d", pygame.KMOD_LCTRL)
     assert len(screen.messages) == MAX_MESSAGES
@@ -742,7 +764,7 @@ def test_names_of_moments_and_buttons_are_never_cut(room: Maker, size: int, widt
     screen = opened(room, "lock for 1 s: a | start: b | at 1,1: c | gold: d | switch: e")
     theme = Theme(room.app.theme.palette, Canvas((width, width * 600 // 792)), size)
     names = [f"{name}..." for name, _ in _WHEN.values()]
-    moment = screen.rows[0][0]
+    moment = screen.fields[0]
     buttons = [(text, moment) for text in names] + [(w.text, w) for w in screen.widgets if isinstance(w, Button)]
     for text, button in buttons:
         assert isinstance(button, Button)
@@ -791,10 +813,14 @@ def test_a_message_that_is_lost_to_another_is_a_problem_with_its_place(doors: Ma
         (f"the message 'Four' is not shown {RUN}: others are read then", ((20, 20),))
     ]
     opened(doors)
-    for text, colour in ((f"Replaced after 0.8 s {RUN}", "faint"), (f"Not shown {RUN}", "bad")):
-        assert re.search(rf"text '{re.escape(text)}.*' at .* {colour}", drawn(doors.app)), "beside the messages"
+    for row, text, colour in ((0, "Replaced after 0.8 s", "text"), (3, "Message 4 is wrong. Not shown", "bad")):
+        select(doors, row)
+        assert re.search(rf"text '{text}.*' at .* {colour}", drawn(doors.app))
+        assert "others are read then" in words(doors) or row == 0
+        assert "Shorten what is read before it" in words(doors)
 
 
+BUTTONS = "Add", "Copy", "Up", "Down", "Remove", "Test", "OK", "Cancel"
 WELCOME = "Welcome to this place: go to the right, and look at what I have built there"
 
 
@@ -829,7 +855,8 @@ def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_shor
         texts = [finding.text for finding in session.examine() if finding.code == "late-message"]
         assert texts == [f"the message {late}"] * bool(late)
         opened(doors)
-        assert drawn(doors.app).count("Not shown in the known run") == len(texts), "beside the message, too"
+        doors.press("down")
+        assert ("Not shown in the known run" in words(doors)) is bool(late), "beside the message, too"
         doors.choose("Cancel")
 
 
@@ -841,11 +868,11 @@ def test_an_important_message_comes_at_once_and_no_trifle_replaces_it(doors: Mak
         screen = opened(doors, says)
         select(doors, 2)
         if marks:
-            doors.choose("Important: no")
+            doors.choose("No")
             assert "text '!'" in drawn(doors.app)
-            assert doors.button("Important: yes") is screen.focus
+            assert doors.button("Yes") is screen.focus
             select(doors, 1)
-            assert doors.button("Important: no"), "of the one that is selected now"
+            assert doors.button("No"), "of the one that is selected now"
         doors.choose("OK")
         doors.press("f5")
         play = doors.shown(PlaytestScreen).play
@@ -876,13 +903,14 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
     assert heard == ({"", "Hold {right}"} if helps else {""})
 
 
-@pytest.mark.parametrize("count", range(MAX_MESSAGES + 1))
+@pytest.mark.parametrize("count", [0, 1, MAX_MESSAGES])
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
-    fixed = [widget.area for widget in screen.widgets[-9:]]
+    fixed = [room.button(text).area for text in BUTTONS]
     show(screen, *[MessageRow("at", "8,21", "x")] * count)
-    assert [widget.area for widget in screen.widgets[-9:]] == fixed
-    areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *(widget.area for widget in screen.widgets))]
+    assert [room.button(text).area for text in BUTTONS] == fixed
+    seen = (widget.area for widget in screen.widgets if not isinstance(widget, Label))
+    areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *seen)]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"
 
@@ -891,8 +919,7 @@ def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
     screen = opened(room)
     for when, (name, text) in _WHEN.items():
         show(screen, MessageRow(when, "", "x"))
-        shown = " ".join(line.split("'")[1] for line in drawn(room.app).splitlines() if line.startswith("text '"))
-        assert f"{name}: {text[0].lower()}{text[1:]}." in shown
+        assert f"{name}: {text[0].lower()}{text[1:]}." in words(room)
 
 
 def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Maker, painted: list[str]) -> None:
@@ -900,7 +927,7 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     add(room, "all of it")
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what a text names"
-    assert shown.count("text 'all of it'") == 2, "in its field and in the level"
+    assert shown.count("text 'all of it'") == 3, "in the list, its field and the level"
     assert "text '1 of 16'" in shown
     assert len(painted) == 1
     screen = room.shown(MessagesScreen)
@@ -951,7 +978,7 @@ def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker
         room.press("return")
     assert room.top() is screen
     assert screen.messages[0].text == "Run\njump\nand see", "three lines are the most"
-    field = screen.rows[0][TEXT]
+    field = screen.fields[TEXT]
     assert isinstance(field, TextArea)
     shown = drawn(room.app)
     for line in ("Run", "jump", "and see"):
@@ -971,7 +998,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     room.type("Run")
     room.press("return")
     drawn(room.app)
-    field = screen.rows[0][TEXT]
+    field = screen.fields[TEXT]
     assert isinstance(field, TextArea)
     assert [first for first, _ in field._rows] == [0, 4]
     assert field._cursor_row == 1
@@ -992,40 +1019,42 @@ def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> N
     assert "Never shown" not in drawn(room.app)
     room.choose("All gold taken...")
     room.choose("Gold is taken")
-    room.mouse(*screen.rows[0][1].centre)
+    room.mouse(*screen.fields[DETAIL].centre)
     room.type("3")
     assert screen.source == "gold 3: Well done"
-    assert "text 'Never shown: the level has 1 piece of gold'" in drawn(room.app)
+    assert "Never shown: the level has 1 piece of gold" in words(room)
 
 
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen = opened(room)
     for when, never in (("lock", True), ("start", False), ("gold", True)):
         show(screen, MessageRow(when, "", "x"))
-        assert ("is never shown: there is no" in drawn(room.app)) is never
-        assert ("Never shown: there is no" in drawn(room.app)) is never
+        assert ("Message 1 is wrong. Never shown: there is no" in words(room)) is never
+        assert ("Choose another moment or place for it" in words(room)) is never
     show(screen, MessageRow("start", "", "x"), MessageRow("trap", "", "y: z"))
-    assert "text 'Never shown: there is no trap door'" in drawn(room.app), "also under one that is not selected"
+    assert "Never shown" not in words(room)
+    assert "text 'Trap' at 78,81.8 size 9 bad" in drawn(room.app), "also one that is not selected"
 
 
 def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(400)))
     screen = opened(room, "after 1 s: Go | after 2 s: On | after 9 s: No")
-    assert [line.partition(" at ")[0] for line in drawn(room.app).splitlines() if " late in" in line] == [
-        "text '2 s late in the known run (10.0 s): others are read first'"
-    ]
+    assert " late in" not in words(room)
+    select(room, 1)
+    assert "2 s late in the known run (10.0 s): others are read first" in words(room)
     screen.messages[0].text = "long " * 24
-    assert "7 s late in" in drawn(room.app)
+    assert "7 s late in" in words(room)
+    select(room, 2)
     screen.messages[2].when, screen.messages[2].detail = "after", "3"
     monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(300)))
-    assert "Not shown in the known run (7.5 s): others are read then" in drawn(room.app)
+    assert "Not shown in the known run (7.5 s): others are read then" in words(room)
 
 
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
     show(screen, MessageRow("start", "", text), MessageRow("start", "", "y"))
-    field = screen.rows[0][-1]
+    field = screen.fields[TEXT]
     assert isinstance(field, TextArea)
     screen.redraw = True
     room.frames()
@@ -1038,7 +1067,7 @@ def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Ma
     left, top, *_ = field.area
     room.mouse(left + field.area[2] - 4, top + 6)
     assert field.edited.cursor == len(lines[0]) - 1, "a click behind a line leads to its end"
-    room.mouse(*field.centre)
+    room.mouse(left + 60, top + 28)
     row_of_cursor = len(lines[0]) <= field.edited.cursor < len(lines[0] + lines[1])
     assert row_of_cursor, "a click leads to the line that it hits"
     room.press("home")
@@ -1065,9 +1094,9 @@ def test_add_lists_all_moments_and_cancel_adds_nothing(room: Maker) -> None:
 def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_over(room: Maker) -> None:
     screen = with_time_in_hand(room)
     room.type("abc")
-    assert "text 'Seconds: from 0.1 to 99.9, or empty'" in drawn(room.app)
+    assert "Message 1 is wrong. Seconds: from 0.1 to 99.9, or empty" in words(room)
     room.choose("OK")
-    assert screen.focus is screen.rows[0][TIME]
+    assert screen.focus is screen.fields[TIME]
     for letter in "1,5":
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
     room.frames()
@@ -1079,21 +1108,17 @@ def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_o
 def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(room: Maker) -> None:
     screen = opened(room, "start: a | start: b | start: c | start: d | after 20 s: e")
     for typed, problem in (("2.55", "How many seconds: a number from 0.1 to 99.9"), ("2,5", "")):
-        if screen.first == 0:
-            room.choose("Page 1 of 2")
-        select(room, 4, 1)
+        select(room, 4, DETAIL)
         room.chord("a", pygame.KMOD_LCTRL)
         for letter in typed:
             pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
         room.frames()
-        assert (f"text 'Message 5 is wrong. {problem}'" in drawn(room.app)) == bool(problem)
-        room.choose("Page 2 of 2")
-        assert screen.first == 0, "the page can be turned"
+        assert (f"Message 5 is wrong. {problem}" in words(room)) == bool(problem)
+        select(room, 0)
         room.choose("Test")
         if problem:
-            assert screen.focus is screen.rows[4][1], "the wrong field, on its page"
-            assert screen.focus in screen.widgets
-            assert f"text 'Message 5 is wrong. {problem}'" in drawn(room.app)
+            assert (screen.list.index, screen.focus) == (4, screen.fields[DETAIL])
+            assert f"Message 5 is wrong. {problem}" in words(room)
     play = room.shown(PlaytestScreen).play
     room.press("escape")
     room.choose("OK")
@@ -1125,9 +1150,156 @@ def test_undo_in_a_text_goes_back_word_by_word(room: Maker) -> None:
     assert texts == ["run and jumps", "run and jum", "run and jump", "run and", "run", ""]
 
 
+def test_undo_and_redo_take_back_everything_on_the_page_one_step_at_a_time(room: Maker) -> None:
+    screen = opened(room, "start: a | at 5,5: b | start: c")
+    sources = [screen.source]
+
+    def done(change: Callable[[], object]) -> None:
+        change()
+        room.frames()
+        assert screen.source != sources[-1]
+        sources.append(screen.source)
+
+    select(room, 1)
+    done(partial(room.choose, "Remove"))
+    assert (screen.list.index, screen.focus) == (1, room.button("Remove")), "the next message, and the same button"
+    done(partial(room.chord, "up", pygame.KMOD_LCTRL))
+    done(partial(room.choose, "Copy"))
+    done(partial(room.choose, "No"))
+    room.choose("At the start...")
+    done(partial(room.choose, "Near a place"))
+    done(partial(drag_in_picture, room, (10, 10), (12, 12), (14, 15)))
+    done(partial(drag_in_picture, room, (12, 12), (13, 12), (15, 12)))
+    select(room, 0)
+    done(partial(room.type, "one"))
+    done(partial(room.type, " two"))
+    room.choose("Add")
+    room.choose("Exit opens")
+    done(partial(room.type, "Now"))
+    select(room, 0, TIME)
+    done(partial(room.type, "5"))
+    select(room, 0)
+    done(partial(room.press, "backspace"))
+    steps = [*sources[:10], sources[9] + " | switch: ", *sources[10:]]
+    for source in reversed(steps[:-1]):
+        room.chord("z", pygame.KMOD_LCTRL)
+        assert screen.source == source
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert screen.source == steps[0]
+    for number, source in enumerate(steps[1:]):
+        room.chord("z", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT) if number % 2 else room.chord("y", pygame.KMOD_LCTRL)
+        assert screen.source == source
+    room.chord("z", pygame.KMOD_LCTRL)
+    room.type("x")
+    room.chord("y", pygame.KMOD_LCTRL)
+    assert screen.source == sources[-2].replace("one two", "one twox"), "a change after undo ends what could be redone"
+
+
+def test_undo_of_a_text_keeps_the_focus_and_puts_the_cursor_where_it_changes(room: Maker) -> None:
+    screen = opened(room, "start: to the exit | start: b")
+    select(room, 0)
+    room.press("home", *["right"] * 6)
+    room.type(" open")
+    assert screen.messages[0].text == "to the open exit"
+    room.chord("z", pygame.KMOD_LCTRL)
+    field = screen.fields[TEXT]
+    assert isinstance(field, TextEntry)
+    assert (field.text, field.edited.cursor, screen.focus) == ("to the exit", 6, field)
+    select(room, 1)
+    room.chord("y", pygame.KMOD_LCTRL)
+    assert (screen.list.index, screen.messages[0].text) == (0, "to the open exit"), "the message that changes is shown"
+
+
+def test_delete_in_the_list_removes_the_selected_message(room: Maker) -> None:
+    screen = opened(room, "start: a | start: b")
+    room.press("delete", "delete", "delete")
+    assert (screen.messages, screen.list.index, screen.focus) == ([], 0, room.button("Add"))
+    assert "No messages yet: Add makes one" in words(room)
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert texts_of(screen) == "b"
+    select(room, 0)
+    room.press("home", "delete")
+    assert texts_of(screen) == "", "in a text it removes a letter"
+
+
+def test_words_in_braces_are_put_into_the_text_at_its_cursor_by_mouse_and_keys(room: Maker) -> None:
+    screen = opened(room, "start: Press  now")
+    select(room, 0)
+    room.press("home", *["right"] * 6)
+    x, y, w, h = screen.words.row_area(WORDS.index("jump"))
+    room.mouse(x + w / 2, y + h / 2)
+    assert (screen.messages[0].text, screen.focus) == ("Press {jump} now", screen.fields[TEXT])
+    room.press("shift+tab", "tab")
+    field = screen.fields[TEXT]
+    assert isinstance(field, TextEntry)
+    assert (field.edited.selected, screen.focus) == ("Press {jump} now", field)
+    room.press("tab")
+    assert screen.focus is screen.words
+    room.press("down", "right")
+    room.press("return")
+    assert screen.messages[0].text == "Press {jump} now{gold left}", "what was selected by Tab stays"
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert screen.messages[0].text == "Press {jump} now", "a step of its own"
+    screen.messages[0].text = "x" * (MAX_LETTERS - 5)
+    screen.enter()
+    room.mouse(x + w / 2, y + h / 2)
+    assert screen.messages[0].text == "x" * (MAX_LETTERS - 5), "no half of a word"
+    assert room.app.notice.startswith("{jump} does not fit")
+
+
+def test_tab_leads_from_the_list_through_the_fields_to_ok(room: Maker) -> None:
+    screen = opened(room, "start: a | at 5,5: b")
+    room.press("down")
+    way: list[object] = []
+    for _ in screen.widgets:
+        way.append(screen.focus)
+        room.press("tab")
+    moment, detail, time, text = screen.fields
+    of_list, ends = [room.button(name) for name in BUTTONS[:5]], [room.button(name) for name in BUTTONS[5:]]
+    mark = room.button("No")
+    assert way == [screen.list, *of_list, moment, detail, time, mark, text, screen.words, *ends]
+    assert screen.focus is screen.list
+
+
+ODD = MessageRow("at", "12,5 15x11", "x" * 20 + " {an-unknown-word-that-is-far-too-long}"), MessageRow("trap", "", "y")
+
+
+@pytest.mark.parametrize("size", TEXT_SIZES.values())
+def test_nothing_beside_the_fields_is_cut_in_any_size_of_text(doors: Maker, size: int) -> None:
+    doors.app.change_settings(text_size=size)
+    screen = opened(doors)
+    sound = [MessageRow(when, {"death": "1", "after": "2", "at": "5,5"}.get(when, ""), LONG) for when in _WHEN]
+    empty = [MessageRow(when) for when in _WHEN]
+    lost = [MessageRow("at", "20,20", "Four"), MessageRow("gold", "", "long " * 24)]
+    for rows in (sound, empty, [*ODD, *lost, MessageRow("start", "", "x", "0.01"), MessageRow("at", "99,99", "z")]):
+        show(screen, *rows)
+        room_for_empty = screen._refused = rows is empty
+        for number in range(len(rows)):
+            screen.list.select(number)
+            aside = [line for line in drawn(doors.app).splitlines() if re.match(r"text .* at 484,", line)]
+            assert aside or room_for_empty
+            assert not [line for line in aside if "..." in line]
+            lowest = max(float(re.findall(r" at 484,([\d.]+)", line)[0]) for line in aside)
+            assert lowest < 514, "above the buttons"
+            field = screen.fields[TEXT]
+            assert isinstance(field, TextArea)
+            assert len(field._rows) <= field._lay_out(doors.app.theme, field.area[0] + PAD, field.area[2] - 20)[1]
+
+
+def test_a_problem_of_a_message_leads_to_it_on_the_page(room: Maker) -> None:
+    check_says(room, "start: a | trap: b | start: c | at 5,5: d")
+    examine(room.editor)
+    room.frames(2)
+    x, y, w, _ = LAYOUT.findings
+    room.mouse(x + w / 3, y + 9)
+    screen = room.shown(MessagesScreen)
+    assert (screen.list.index, screen.focus) == (1, screen.fields[TEXT])
+
+
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
     opened(doors, "gold: {gold taken} taken and {gold left} left, {deaths} deaths")
     assert "text '1 taken and 1 left, 0 deaths'" in drawn(doors.app)
+    assert level_text("{deaths} deaths", str, 0, 0, 1) == "1 death"
     doors.choose("OK")
     doors.press("f5")
     play = doors.shown(PlaytestScreen).play
@@ -1163,5 +1335,6 @@ def test_the_known_run_is_played_in_the_background(doors: Maker, monkeypatch: py
     assert len(asked) == 1
     assert screen._known.result is None
     screen._known.result = screen._known._work(asked[0])
+    doors.press("down")
     doors.frames(2)
-    assert "Replaced after" in drawn(doors.app)
+    assert "Replaced after" in words(doors)

@@ -9,6 +9,7 @@ import pytest
 from ninja_game.editor import packs
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import PackFinding, pack_finding
+from ninja_game.play.editor.messages import MessagesScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import BACK, FormPanel
 from ninja_game.play.menus import pack_menus
@@ -60,6 +61,23 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(desk: Desk) 
     assert Pack(desk.path).index.accepted
     desk.mouse(BACK[0] + 10, BACK[1] + 10)
     desk.shown(PackScreen)
+
+
+def test_a_problem_of_a_message_leads_to_the_message(desk: Desk) -> None:
+    level = desk.first
+    says = re.sub("\nsays: .*", "\nsays: start: Go | start: On | trap: Never", level.read_text("utf-8"))
+    level.write_text(says, "utf-8")
+    desk.open_packs()
+    desk.choose("Problems")
+    page = desk.problem_page()
+    row = next(k for k, problem in enumerate(page.problems) if "'Never' is never shown" in problem.text)
+    desk.click(page.list.row_area(row))
+    desk.choose("Go there")
+    screen = desk.shown(MessagesScreen)
+    assert (screen.list.index, screen.messages[2].text, screen.focus) == (2, "Never", screen.fields[-1])
+    desk.choose("Cancel")
+    assert desk.shown(EditorScreen).session.source.path == level
+    desk.leave_editor()
 
 
 def test_problems_begin_with_the_first_open_one_whose_lines_lie_within_its_frame(desk: Desk) -> None:
