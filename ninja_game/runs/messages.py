@@ -8,7 +8,7 @@ from functools import lru_cache
 from math import hypot
 from typing import NamedTuple
 
-from ninja_game.formats.messages import ALL_GOLD, LevelMessage, arrow_targets, parse_messages
+from ninja_game.formats.messages import ALL_GOLD, LevelMessage, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
@@ -24,7 +24,7 @@ SHOWN_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
 _FADE_TICKS = 20  # ticks in which a message near a place fades at its end
 _GLANCE = TICKS_PER_SECOND  # ticks in which nobody reads a message
-_WAITS = {"at", "after"}  # moments that wait until what just happened was read
+_WAITS = {"at", "after"}  # moments that wait for what is shown, and come again if they were not read
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
 
@@ -64,17 +64,19 @@ FALL_HELP = "Slide down a wall to slow a fall, or land on a downhill slope."
 
 
 class MessageQueue:
-    """The messages of a level in play: the shown one, and those that wait for it.
+    """Messages of a level in play, of what happens or of places: the shown one, and those that wait for it.
 
-    - ``tiles``: the level's tiles, which hide a place from the ninja; None: only full tiles and doors hide it.
-    - ``helps``: the game gives advice too: to try again, to climb; ``teaches``: not beside the level's messages.
-    - ``text``: the shown text, "" for none; ``place``: its place, px. It ends when the ninja is far from there.
+    - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
+    - ``helps``: the game gives advice too: to try again, to climb; ``teaches``: the level does so itself.
+    - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
+    - ``spot`` is where the ninja was when it came, px, ``taken`` where the other queue's text was; others set them.
 
-    A message of the start comes at each start until the exit is open, any other message once. A message about an event
-    replaces the shown one at once. A message of a place or a time waits until the shown one was read, for its
-    ``read_ticks``; if it was replaced before it was read, it comes again. Messages read in an earlier try hold nothing
-    back. An important message comes at once; until it was read, only another important event replaces it. The text of a
-    place without a time of its own stays while the ninja is in its frame, unless another one waits.
+    A message of the start comes at each start until the exit is open, any other once. What just happened, or a place
+    that the ninja just reached, replaces what is shown; a time, or a place where the ninja still is, waits until that
+    was read, for its ``read_ticks``. A place or a time comes again if it was replaced, or the try ended, before it was
+    read. What was read in an earlier try holds nothing back. An important message comes at once; until it was read only
+    another such that just happened replaces it. The text of a place without a time of its own stays while the ninja is
+    in its frame, unless another waits.
     """
 
     def __init__(
@@ -87,50 +89,50 @@ class MessageQueue:
     ) -> None:
         self._messages, self._tiles = messages, tiles or TileMap()
         self.helps = helps
-        self._again = self._advises = helps and not (teaches and messages)
+        self._again = self._advises = helps and not teaches
         self._shown: set[LevelMessage] = set()
         self._read = Counter[str]()  # ticks for which the texts were shown
         self.deaths = self._slips = 0
         self._climb, self._foot = "", 0.0
         self._began = 0.0, 0.0
-        self._next: list[_Text] = []
+        self._say()
         self.at_start()
 
     def at_start(self) -> None:
         """Called when the level waits at its start; messages that still waited count as not shown."""
-        self._shown.difference_update(message for _, _, message in self._next)
+        self._shown -= self._unread.union(message for _, _, message in self._next if message)
         due = [message for message in self._messages if message.when == "death" and message.number == self.deaths]
         starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
+        self.spot: Point | None = None
+        self.taken: tuple[float, float, float, float] | None = None
+        self._here: set[LevelMessage] = set()
         self._still = self._quiet = 0
         self._jumped_at = self._wall = 0.0
 
     def _say(self, *texts: _Text) -> None:
         (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
 
+    @property
+    def _unread(self) -> set[LevelMessage]:
+        """Places and times, shown or waiting, that were not read."""
+        messages = [message for _, _, message in self._next] + [self.message] * self.is_unread
+        return {message for message in messages if message and message.when in _WAITS}
+
     def _say_now(self, *texts: _Text) -> None:
-        """Show these texts at once, then the waiting ones. An unread text of a place or a time comes again."""
-        unread = [message for _, _, message in self._next] + [self.message] * self.is_unread
-        again = {message for message in unread if message and message.when in _WAITS}
+        """Show these texts at once, then what waits. A place or a time that was not read is waited for again."""
+        again = self._unread
         self._shown -= again
         self._say(*texts, *(line for line in self._next if line[2] not in again))
-
-    @property
-    def named(self) -> Sequence[str]:
-        """The things that the present text names, each with an arrow (``arrow_targets``)."""
-        return arrow_targets([self.text])
 
     @property
     def place(self) -> Point | None:
         return self.message and self.message.place
 
-    def _belongs_to_start(self, text: str) -> bool:
-        return any(message.text == text for message in self._messages if message.when == "start")
-
     @property
     def is_start(self) -> bool:
         """Whether the present text belongs to the start, also when it is not shown any more."""
-        return self._belongs_to_start(self.text)
+        return bool(self.message and self.message.when == "start")
 
     @property
     def is_unread(self) -> bool:
@@ -155,14 +157,13 @@ class MessageQueue:
 
     def on_death(self) -> None:
         self.deaths += 1
-        self.text = ""
 
     def add_read(self, ticks: int) -> None:
         """Count ticks for which the present text was shown, in play or while the level waits at its start."""
         self._read[self.text] += ticks
 
-    def on_tick(self, world: World) -> bool:
-        """Called after a tick of play; whether the text has changed."""
+    def on_tick(self, world: World, beside: str = "") -> bool:
+        """Called after a tick of play; whether the text has changed. ``beside``: what another queue shows."""
         before = self.text
         self._left -= 1
         self.add_read(1)
@@ -176,22 +177,25 @@ class MessageQueue:
         events = world.events[: world.event_count]
         if any(event.kind == EXIT_OPENED for event in events):
             self.drop_start()
-        ahead = [message for message in self._messages if message not in self._shown]
         held = bool(self.is_unread and self.message and self.message.important)
+        here = {message for message in self._messages if self._is_at(world, message)}
+        reached, self._here = here - self._here, here
+        ahead = [message for message in self._messages if message not in self._shown]
         new = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
         waits = bool(new) or self.is_unread
-        new += [
-            message
-            for message in ahead
-            if (not held if message.important else not waits)
-            and (self._is_at(world, message) or _is_due(world, message))
-        ]
+
+        def comes(message: LevelMessage) -> bool:
+            if message in reached:
+                return message.important or not held
+            return not (held if message.important else waits) and (message in here or _is_due(world, message))
+
+        new += list(filter(comes, ahead))
         self._shown.update(new)
         if held and not any(message.important for message in new):
             self._next += _in_turn(new)
         elif new:
             self._say_now(*_in_turn(new))
-        if self._again and self._is_stuck(world):
+        if self._again and self._is_stuck(world, beside):
             self._again = False
             self._say((AGAIN, SHOWN_TICKS, None))
         if self._advises and (wall := self._slipped(world)) and not self.is_unread:
@@ -221,15 +225,20 @@ class MessageQueue:
         self._wall = 0.0
         return wall if self._slips == SLIPS else 0.0
 
-    def _is_stuck(self, world: World) -> bool:
+    def _is_stuck(self, world: World, beside: str) -> bool:
         """Whether the ninja has been still for long, away from its start, without a text."""
         ninja = world.ninja
         self._still = 0 if hypot(ninja.x - ninja.prev_x, ninja.y - ninja.prev_y) > _STILL else self._still + 1
         if world.tick == 1:
             self._began = ninja.x, ninja.y
         away = hypot(ninja.x - self._began[0], ninja.y - self._began[1]) > _AWAY
-        self._quiet = 0 if self.text else self._quiet + 1
+        self._quiet = 0 if self.text or beside else self._quiet + 1
         return away and self._still >= STILL_TICKS and self._quiet >= QUIET_TICKS
+
+
+def in_two(messages: Sequence[LevelMessage]) -> tuple[list[LevelMessage], list[LevelMessage]]:
+    """Messages of what happens, and those of places: one of each can be on the screen."""
+    return [m for m in messages if not m.place], [m for m in messages if m.place]
 
 
 def read_ticks(text: str) -> int:
@@ -276,6 +285,12 @@ def late_text(moment: Heard, ticks: int) -> str:
     return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s {run}, too soon" if moment.cut else ""
 
 
+def short_text(message: LevelMessage) -> str:
+    """That a message's own time is far too short for its letters; '' if it is not."""
+    letters, need = len(message.text), read_ticks(message.text) // TICKS_PER_SECOND
+    return f"too short to read: {letters} letters need {need} s" if 0 < 3 * message.seconds < need else ""
+
+
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
     """Findings about messages that others displace in the known run, except those after another of their moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
@@ -305,7 +320,7 @@ def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> t
     run = Simulation(level)
     together, alone = _Comings(), _Comings()
     queues = [(MessageQueue([message], run.tiles), alone) for message in messages]
-    queues.append((MessageQueue(messages, run.tiles), together))
+    queues += [(MessageQueue(some, run.tiles), together) for some in in_two(messages)]
     for tick, keys in enumerate(inputs):
         run.step_keys(keys)
         for queue, comings in queues:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.formats.messages import LevelMessage
 from ninja_game.formats.run_time import rounded_text
 from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
@@ -16,8 +17,8 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.sim.rules import CELL, LIFETIME
 from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.medals import draw_medal, draw_stamp
-from ninja_game.ui.theme import Palette, Theme, mixed, wrapped
-from ninja_game.view.places import MUST, TAG_ROOM, Things, away_from, hidden_by, solid_place, tag_top
+from ninja_game.ui.theme import Area, Palette, Theme, mixed, wrapped
+from ninja_game.view.places import MAY, MUST, TAG_ROOM, Things, away_from, hidden_by, points_in, solid_place, tag_top
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0  # left end and middle, px
 _BAR_LENGTH = 630.0  # px, for the lifetime at a level's start or more
@@ -96,19 +97,24 @@ class PlacedMessage(NamedTuple):
     things: Things
     place: Point | None  #: the place that it is about, px
     covers: bool  #: whether it may cover open space too; else it may lie in the border below
-    near: bool = False  #: whether it lies beside its place, whatever it covers, and points to it
+    frame: Area | None = None  #: of its place, px: it lies beside that, whatever it covers, and points to it
+    taken: Area | None = None  #: where another text was when it came, px
+    moves: tuple[int, ...] = ()  #: the keys of each line
 
 
 def placed_message(
-    text: str, tiles: tuple[int, ...], things: Things, place: Point | None, spot: Point | None, *, of_start: bool
+    text: str, tiles: tuple[int, ...], things: Things, near: LevelMessage | None, spot: Point | None, *, of_start: bool
 ) -> PlacedMessage:
-    """A text beside its own ``place``, px, or near ``spot``, where the ninja was when it came, and never over that.
+    """A text beside the place of ``near``, or near ``spot``, px, where the ninja was when it came, and never over that.
 
     ``of_start``: it stays in place, and may cover open space.
     """
-    if place and spot:
-        things = (*things, (*spot, MUST))
-    return PlacedMessage(text, tiles, things, place or spot, of_start, place is not None)
+    if near is None or near.place is None:
+        return PlacedMessage(text, tiles, things, spot, of_start)
+    (x, y), (half_w, half_h) = near.middle, near.reach
+    frame = x - half_w, y - half_h, 2 * half_w, 2 * half_h
+    things = (*things, (*spot, MUST)) if spot else things
+    return PlacedMessage(text, tiles, things, near.place, of_start, frame)
 
 
 class EndPanel(NamedTuple):
@@ -132,7 +138,7 @@ class HudView:
     keys: int | None = None  #: keys of the present tick; None: not shown
     frame_ms: float | None = None  #: duration of the last picture; None: not shown
     message: PlacedMessage | None = None
-    moves: Sequence[int] = ()  #: the keys of each line of the message
+    bubble: PlacedMessage | None = None  #: a message of a place, beside the other
     letters: Sequence[str] = ()  #: on the keys left, jump and right
     named: Sequence[tuple[str, float, float]] = ()  #: names of things, and their places, px
     end: EndPanel | None = None
@@ -142,7 +148,7 @@ class HudView:
     end_opacity: float = 1.0  #: opacity of the end panel, 0…1
     ninja: Point | None = None  #: the ninja's place in play, px; a message over it fades
     softly: bool = True  #: whether that message fades slowly, not at once
-    message_opacity: float = 1.0  #: apart from fading over the ninja, 0…1
+    bubble_opacity: float = 1.0  #: apart from fading over the ninja, 0…1
 
 
 class Hud:
@@ -155,28 +161,28 @@ class Hud:
     def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
         """Draw everything; the covered px rectangles."""
         top = [self.label(surface, view.label)] if view.label else self.time_bar(surface, view.lifetime, view.pars)
-        keys = _KEYS_WIDE if view.moves else 0
-        box = self.box(view.message, keys=keys) if view.message else None
-        in_border = box is not None and box.y == BORDER_MESSAGE_TOP
+        texts = (view.message, 1.0), (view.bubble, view.bubble_opacity)
+        shown = [(message, self.box(message), opacity) for message, opacity in texts if message]
+        in_border = any(box.y == BORDER_MESSAGE_TOP for _, box, _ in shown)
         written = top + self.foot(surface, "" if in_border else view.foot[0], view.foot[1])
-        if box is not None and in_border:
-            # Beside a message at the right; the rest of the border is for the level's name.
-            left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - box.w)
-            box = box._replace(x=left)
-            if left > _NAME_FROM:
-                written += self.foot(surface, self.theme.fit(view.name, left - 36, _FOOT_SIZE), "")
         if view.frame_ms is not None:
             written.append(self.frame_time(surface, view.frame_ms))
         if view.keys is not None:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
-        if box is not None:
-            opacity = view.message_opacity * (1.0 if in_border else _clear_of(view.ninja, box, softly=view.softly))
+        for message, roomy, solid in shown:
+            box, opacity, moves = roomy, solid * _clear_of(view.ninja, roomy, softly=view.softly), message.moves
+            if box.y == BORDER_MESSAGE_TOP:
+                # Beside a message at the right; the rest of the border is for the level's name.
+                left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - box.w)
+                box, opacity, moves = roomy._replace(x=left), solid, ()
+                if left > _NAME_FROM:
+                    written += self.foot(surface, self.theme.fit(view.name, left - 36, _FOOT_SIZE), "")
             place = self.theme.canvas.rect(*box.area)
             behind = _covered_picture(surface, place, opacity)
-            if view.message and view.message.near and view.message.place and view.message_opacity == 1:
-                written.append(self._tail(surface, box, view.message.place))
-            written.append(self.draw_message(surface, box, () if in_border else view.moves, view.letters))
+            if message.frame and message.place and solid == 1:
+                written.append(self._tail(surface, box, message.place))
+            written.append(self.draw_message(surface, box, moves, view.letters))
             _fade(surface, place, behind, opacity)
         if view.end and view.end_opacity > 0:
             written.append(self.end_panel(surface, view, view.end))
@@ -294,14 +300,14 @@ class Hud:
             rects.append(canvas.polygon(surface, colour, [*ends, at]))
         return rects[0].union(canvas.circle(surface, palette.accent, at, 3)).inflate(2, 2)
 
-    def box(self, message: PlacedMessage, *, keys: float = 0.0) -> Box:
+    def box(self, message: PlacedMessage) -> Box:
         """The place of a message: in the upper border, else in the lower one, over solid tiles.
 
         If it would hide something there, or open space that it may not cover, it lies where it hides least, but never
         over the ninja or what it must not hide, and else in the border below, beside the gold. A message with a place
-        lies at most two cells from it. ``keys``: room before its lines, px.
+        lies at most four cells from it, and hides as little of its frame as it can.
         """
-        return _box(self._measures, message, keys)
+        return _box(self._measures, message)
 
     def draw_message(
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
@@ -366,12 +372,15 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 
 
 @lru_cache(maxsize=4)
-def _box(theme: Theme, message: PlacedMessage, keys: float) -> Box:
+def _box(theme: Theme, message: PlacedMessage) -> Box:
     """As ``Hud.box``. Cached: the search for a place takes longer than all the rest of a picture."""
-    text, tiles, things, place, covers, near = message
-    high, anchor = _MESSAGE_LINE * theme.scales[0], place if near else None
+    text, tiles, things, place, covers, frame, taken, moves = message
+    keys = _KEYS_WIDE if moves else 0.0
+    high, anchor = _MESSAGE_LINE * theme.scales[0], place if frame else None
     if place:
         things = (*things, (*place, MUST))
+    for area, cost in ((frame, MAY), (taken, 9 * MUST)):
+        things = (*things, *points_in(area, cost)) if area else things
     boxes: list[tuple[int, Box]] = []
     for rows, width in (
         ((0, 1), (0, 0.6), (0, 0.4), (0, 0.3)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from math import hypot
+from math import ceil, hypot
 
 from ninja_game.sim.collision.tiles import FULL, SHAPE
 from ninja_game.sim.grid import Point
@@ -13,9 +13,10 @@ from ninja_game.sim.level import ROWS
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.ui.canvas import WIDTH
+from ninja_game.ui.theme import Area
 
 _BESIDE = 36.0  # px from a place to the panel of its message: far enough not to fade while the ninja is there
-_AWAY = 2 * CELL  # px across and down from a place to the farthest such panel, less at a corner
+_AWAY = 4 * CELL  # px across and down from a place to the farthest such panel, less at a corner
 _MAX_BOTTOM = 573.0  # lowest end of a panel: below are the level's name and the texts after a pass, px
 _NEAR = 16.0  # px between a panel and the middle of a thing
 _ALONG = 7  # open cells that cost as much as an open cell beside a solid one
@@ -48,6 +49,14 @@ def things_in(world: World, *, tagged: bool) -> Things:
 def away_from(point: Point, x: float, y: float, w: float, h: float) -> float:
     """Distance between a point and a panel, px."""
     return hypot(max(x - point[0], 0.0, point[0] - x - w), max(y - point[1], 0.0, point[1] - y - h))
+
+
+def points_in(area: Area, cost: int) -> Things:
+    """Things all over an area, px, so close that a panel over a part of it hides one."""
+    x, y, w, h = area
+    columns, rows = ceil(w / CELL), ceil(h / CELL)
+    middles = ((x + w * (k + 0.5) / columns, y + h * (j + 0.5) / rows) for k in range(columns) for j in range(rows))
+    return tuple((*middle, cost) for middle in middles)
 
 
 def hidden_by(things: Things, x: float, y: float, w: float, h: float) -> Iterator[int]:

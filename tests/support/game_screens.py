@@ -38,7 +38,8 @@ from ninja_game.play.panels.help import HelpScreen
 from ninja_game.play.panels.replays import ReplaysScreen
 from ninja_game.play.panels.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.sim.kinds import GOLD, MINE
+from ninja_game.sim.grid import cell_of
+from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import ObjectSpec
 from tests.support.draw_log import DrawLog
 from tests.support.level_maker import ROOM, examine
@@ -348,7 +349,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
 
 
 def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
-    """Four messages, all that a level has, and where two of them are shown."""
+    """Four messages, all that a level has, where two of them are shown, and a place beside the start in play."""
     messages = "start: {jump} jumps | switch: Now the exit | at 9,20: Mind the mine | death 3: Wait"
     tools = screen.session.tools
     tools.history.change(replace(tools.draft, says=messages))
@@ -358,7 +359,14 @@ def _messages(driver: MenuDriver, screen: EditorScreen) -> Iterator[str]:
     driver.frames(2)
     yield "editor-messages"
     driver.press("escape")
-    tools.undo()
+    column, row = cell_of(*next(each.values[:2] for each in tools.draft.level.objects if each.kind == NINJA))
+    tools.history.change(replace(tools.draft, says=f"start: {{jump}} jumps | at {column},{row}: Mind the mine"))
+    driver.press("f5", "space")
+    driver.frames(5)
+    yield "editor-test-with-two-messages"
+    driver.press("escape")
+    for _ in range(2):
+        tools.undo()
 
 
 def _editor_states(driver: MenuDriver) -> Iterator[str]:

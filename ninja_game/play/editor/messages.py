@@ -40,7 +40,7 @@ from ninja_game.play.editor.sheet import said_at, things_of
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
-from ninja_game.runs.messages import Heard, heard, late_text, shown_ticks
+from ninja_game.runs.messages import Heard, heard, late_text, short_text, shown_ticks
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -77,8 +77,8 @@ _WHEN = {
 """The name of each moment, and when it is."""
 
 _HELP = (
-    "What just happened replaces what is shown; a place or a time waits until that was read.",
-    "An important message (!) comes at once, and others wait until it was read.",
+    "What happens replaces the text before it, a place the bubble before it; a time waits.",
+    "An important text (!) holds other texts back until it was read, a bubble other bubbles.",
     "In a level with messages the game gives no help of its own in play.",
     "Ctrl+Z undoes the last change here, a text word by word; Ctrl+Y redoes it.",
 )
@@ -576,10 +576,12 @@ class MessagesScreen(MenuScreen):
         return answer[1][sound.index(message)]
 
     def _wait_of(self, message: MessageRow, *, lost: bool = False) -> str:
-        """That a message is lost to others in the known run, or how late or short it is there; '' if it is not."""
+        """That a message is lost to others in the known run, or how late or short it is; '' if it is not."""
+        sound = () if lost or message.problem[1] else parse_messages(message.source)
         moment = self._heard(message) if self._together(message)[0] is message else None
         is_so = moment and (moment.tick is None) is lost
-        text = late_text(moment, len(self._certifying_inputs())) if moment and is_so else ""
+        late = late_text(moment, len(self._certifying_inputs())) if moment and is_so else ""
+        text = late or "".join(map(short_text, sound))
         return text[:1].upper() + text[1:]
 
     def _together(self, message: MessageRow) -> list[MessageRow]:
@@ -618,8 +620,7 @@ class MessagesScreen(MenuScreen):
             spot: Point | None = moment.spot
         else:
             spot = None if parsed else self._eye(message)
-        place = parsed and parsed.place
-        layout = self._draft.level.tiles, self._things(stage), place, spot
+        layout = self._draft.level.tiles, self._things(stage), parsed, spot
         return placed_message(text, *layout, of_start=message.when == "start") if text else None
 
     def _draw_level(self, surface: pygame.Surface, message: MessageRow | None) -> None:

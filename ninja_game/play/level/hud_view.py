@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from math import hypot
 
 from ninja_game.files.shown_text import shown_text
-from ninja_game.formats.messages import level_text
+from ninja_game.formats.messages import arrow_targets
 from ninja_game.formats.run_time import rounded_text, seconds_text
 from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
@@ -14,11 +14,10 @@ from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
 from ninja_game.runs.deaths import SELF
 from ninja_game.runs.messages import FALL_HELP, WHY
-from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
-from ninja_game.view.hud import EndPanel, HudView, placed_message
+from ninja_game.view.hud import EndPanel, HudView
 from ninja_game.view.places import MUST, Things
 
 _FADE_TICKS = 8  # ticks until the panel of an ended run is opaque
@@ -40,13 +39,6 @@ def hud_view(play: LevelPlay) -> HudView:
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
     end = None
-    text = "" if play.phase in {Phase.DEAD, Phase.PASSED} else play.messages.text
-    # The text for a player who is stuck stays in place, too.
-    layout = playthrough.level.tiles, play.things, play.messages.place, play.message_spot
-    is_advice = "\n" in text and play.messages.message is None
-    of_start = play.messages.is_start or is_advice
-    shown = level_text(text, key, attempt.gold, play.all_gold, play.messages.deaths)
-    message = placed_message(shown, *layout, of_start=of_start) if text else None
     if play.phase is Phase.DEAD:
         cause, help_text = cause_of_death(play)
         end = EndPanel(cause, [*filter(None, [help_text]), _after_death(play, key)], *_covering(play))
@@ -72,18 +64,18 @@ def hud_view(play: LevelPlay) -> HudView:
         pars=_pars_ahead(play),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
-        message=message,
-        moves=[sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if is_advice],
+        message=play.placed(play.messages),
+        bubble=play.placed(play.places),
         letters=[key(name) for name in ("left", "jump", "right")],
         end=end,
-        named=() if end else named_in(attempt.simulation.world, play.messages.named),
+        named=() if end else named_in(attempt.simulation.world, arrow_targets(queue.text for queue in play.queues)),
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
         end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / _FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
-        message_opacity=1.0 if settings.reduced_motion else play.messages.opacity,
+        bubble_opacity=1.0 if settings.reduced_motion else play.places.opacity,
     )
 
 
@@ -99,7 +91,7 @@ def _pars_ahead(play: LevelPlay) -> list[tuple[str, float]]:
 
 def _covering(play: LevelPlay) -> tuple[tuple[int, ...], Things]:
     """Tiles and things that the panel of an ended run should not cover; it never covers the end or an exit."""
-    x, y = play.message_spot or (0.0, 0.0)
+    x, y = play.ended_at
     end = [(x + dx, y + dy, 9 * MUST) for dx in (-_END_ROOM, 0, _END_ROOM) for dy in (-_END_ROOM, 0, _END_ROOM)]
     exits = [(o.x, o.y, 9 * MUST) for o in play.attempt.simulation.world.objects[1:] if o.kind == EXIT]
     return play.playthrough.level.tiles, (*end, *exits, *play.things)

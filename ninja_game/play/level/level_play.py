@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from enum import Enum
 from random import Random
 
-from ninja_game.formats.messages import arrow_targets
+from ninja_game.formats.messages import arrow_targets, level_text
 from ninja_game.levels.episodes import GAME
 from ninja_game.play.app import App
 from ninja_game.play.replay.playback import Ghost, Playback, RunClock
@@ -15,12 +15,14 @@ from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import Playthrough
 from ninja_game.player.progress import HELPED
 from ninja_game.runs.deaths import cause_of
-from ninja_game.runs.messages import MessageQueue
+from ninja_game.runs.messages import MessageQueue, in_two
+from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
+from ninja_game.view.hud import Hud, PlacedMessage, placed_message
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.places import MAY, Things, things_in
 
@@ -108,7 +110,10 @@ class LevelPlay:
         self.all_gold = playthrough.level.gold
         self.show_tutorial = playthrough.show_tutorial
         helps, teaches = playthrough.shows_messages, playthrough.entry.source != GAME
-        self.messages = MessageQueue(messages, self.attempt.simulation.tiles, helps=helps, teaches=teaches)
+        happens, places = in_two(messages)
+        self.messages = MessageQueue(happens, helps=helps, teaches=teaches and bool(messages))
+        self.places = MessageQueue(places, self.attempt.simulation.tiles)  #: their texts come beside the others
+        self.queues = self.messages, self.places
         for _ in range(playthrough.deaths):
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -123,20 +128,18 @@ class LevelPlay:
         self.app.controls.stop_running()
         self._held_before = self.app.controls.poll()
         self.keys = self._ignored = self._tapped = 0  #: keys of the last tick
-        #: The ninja's place when the present message came, or the run ended; None for the message of the start
-        self.message_spot: tuple[float, float] | None = None
+        self.ended_at = 0.0, 0.0  #: the ninja's place when the run ended, px
         self.after_end = self._frozen_ms = 0  #: ticks since the exit contact or death
         self.killer = ""  #: one of ``deaths.KILLERS``
         self.crushed = False  #: whether the killer crushed the ninja
-        self.messages.at_start()
+        for queue in self.queues:
+            queue.say_again() if self.playthrough.lead else queue.at_start()
         self.notices: list[str] = []  #: sentences about what a pass has won
         self.next_par = self.playthrough.next_par()  #: next medal and its time, while the level waits
         runs = self.playthrough.ghosts()
         if runs != [(ghost.inputs, ghost.pace) for ghost in self.ghosts]:
             self.ghosts = [Ghost(run, self.playthrough.level, self.playthrough.body, pace=pace) for run, pace in runs]
             self.view.ghosts = self.ghosts
-        if self.playthrough.lead:
-            self.messages.say_again()
         for keys in self.playthrough.lead:
             self.attempt.tick(keys)
             self.tools.playback.note()
@@ -144,9 +147,27 @@ class LevelPlay:
         self.view.on_seek()
 
     def _say(self) -> None:
-        """Update the messages after a tick."""
-        if self.messages.on_tick(self.attempt.simulation.world):
-            self.changed, self.message_spot = True, None if self.messages.is_start else self.ninja_place()
+        """Update the messages after a tick. A new one keeps away from where the other is."""
+        for queue, other in (self.queues, self.queues[::-1]):
+            if queue.on_tick(self.attempt.simulation.world, other.text):
+                there = self.placed(other)
+                queue.spot = None if queue.is_start else self.ninja_place()
+                queue.taken = Hud(self.app.theme).box(there).area if there else None
+                self.changed = True
+
+    def placed(self, queue: MessageQueue) -> PlacedMessage | None:
+        """The text of a queue where it lies; None without one, and after the end."""
+        text, is_advice = queue.text, "\n" in queue.text and queue.message is None
+        if not text or self.phase in {Phase.DEAD, Phase.PASSED}:
+            return None
+        shown = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
+        layout = self.playthrough.level.tiles, self.things, queue.message, queue.spot
+        # The text for a player who is stuck stays in place, too.
+        placed = placed_message(shown, *layout, of_start=queue.is_start or is_advice)
+        moves = tuple(
+            sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if is_advice
+        )
+        return placed._replace(taken=queue.taken, moves=moves)
 
     def ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja
@@ -239,7 +260,9 @@ class LevelPlay:
 
     def update(self, real_ms: int) -> None:
         if self.phase is Phase.READY:
-            self.messages.add_read(self.clock.ticks_due(real_ms, self.app.tick_ms))
+            due = self.clock.ticks_due(real_ms, self.app.tick_ms)
+            for queue in self.queues:
+                queue.add_read(due)
             self._wait_for_move()
         elif self.phase is not Phase.PAUSED:
             if self.tools.rewinding:
@@ -296,7 +319,7 @@ class LevelPlay:
     def _note_end(self) -> None:
         """Change the phase at the first exit contact or death."""
         if self.phase is Phase.PLAY and self.attempt.outcome != "running":
-            self.after_end, self.message_spot = 0, self.ninja_place()
+            self.after_end, self.ended_at = 0, self.ninja_place()
             self.phase = _PHASE_OF_OUTCOME[self.attempt.outcome]
             self.changed = True
             if self.phase is Phase.PASSED:

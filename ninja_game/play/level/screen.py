@@ -191,7 +191,8 @@ class LevelScreen(Screen):
     def _watch(self, run: Replay | None) -> None:
         """Watch a run; then the level waits at its start and shows its messages again."""
         self.retry()
-        self.play.messages.say_again()
+        for queue in self.play.queues:
+            queue.say_again()
         watch_replays(self.app, [run])
         self.app.notify(f"{self.app.controls.name('back')}: back to your own try")
 

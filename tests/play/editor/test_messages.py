@@ -28,7 +28,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import message_places
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.level.hud_view import hud_view
-from ninja_game.play.level.level_play import Phase
+from ninja_game.play.level.level_play import LevelPlay, Phase
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import Playthrough
 from ninja_game.runs.messages import MessageQueue, read_ticks
@@ -46,7 +46,7 @@ from ninja_game.ui.theme import TEXT_SIZES, Palette, Theme
 from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button, Label
 from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
-from tests.support.draw_log import drawn
+from tests.support.draw_log import DrawLog, drawn
 from tests.support.level_maker import ROOM, Maker, examine
 
 LONG = "to the right and take the gold before you leave and then look for"
@@ -64,6 +64,11 @@ def opened(maker: Maker, says: str | None = None) -> MessagesScreen:
     maker.chord("m", pygame.KMOD_LSHIFT)
     maker.frames(2)
     return maker.shown(MessagesScreen)
+
+
+def said(play: LevelPlay) -> list[str]:
+    """What the level says now, and what a place says beside it."""
+    return [queue.text for queue in play.queues]
 
 
 def check_says(maker: Maker, says: str) -> None:
@@ -660,7 +665,7 @@ def test_a_test_begins_in_the_known_run_a_second_before_the_message(
         assert play.phase is Phase.READY
         assert bytes(play.attempt.inputs) == RIGHT[:began]
         play.begin()
-        while play.messages.text != "Now" and play.attempt.outcome == "running":
+        while "Now" not in said(play) and play.attempt.outcome == "running":
             play.run_ticks(1)
         assert 40 <= play.attempt.simulation.tick - began + (began == 0) * 40 <= 60
         assert abs(play.attempt.simulation.ninja.x - 24 * x - 12) < 40
@@ -794,9 +799,10 @@ def test_a_message_of_any_moment_lies_where_the_preview_shows_it(
         play.messages.at_start()
     monkeypatch.setattr(doors.app.controls, "poll", lambda: 2)
     play.begin()
-    while not play.messages.text and play.phase is Phase.PLAY:
+    while not any(said(play)) and play.phase is Phase.PLAY:
         play.run_ticks(1)
-    message = hud_view(play).message
+    view = hud_view(play)
+    message = view.bubble if moment.startswith("at") else view.message
     assert message
     assert Hud(doors.app.theme).box(message) == box
 
@@ -807,10 +813,11 @@ RUN = f"in the known run ({len(RIGHT) / TICKS_PER_SECOND:.1f} s)"
 def test_a_message_that_is_lost_to_another_is_a_problem_with_its_place(doors: Maker) -> None:
     session = doors.editor.session
     session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
-    check_says(doors, "gold: One | gold: Two | lock 11,22: Three | at 20,20: Four | death 1: Five | trap for 9 s: Six")
+    check_says(doors, "trap: Two | at 15,22!: Three | at 18,22: Four | at 9,22: Five | gold!: One | death 1: Six")
     late = [finding for finding in session.examine() if finding.code == "late-message"]
     assert [(finding.text, finding.cells) for finding in late] == [
-        (f"the message 'Four' is not shown {RUN}: others are read then", ((20, 20),))
+        (f"the message '{text}' is not shown {RUN}: others are read then", (cell,))
+        for text, cell in (("Two", (13, 22)), ("Four", (18, 22)))
     ]
     opened(doors)
     for row, text, colour in ((0, "Replaced after 0.8 s", "text"), (3, "Message 4 is wrong. Not shown", "bad")):
@@ -824,30 +831,55 @@ BUTTONS = "Add", "Copy", "Up", "Down", "Remove", "Test", "OK", "Cancel"
 WELCOME = "Welcome to this place: go to the right, and look at what I have built there"
 
 
-@pytest.mark.parametrize("waits", [1, 4])
-def test_a_place_waits_until_the_welcome_was_read_also_while_the_level_waits(room: Maker, waits: int) -> None:
-    check_says(room, f"start: {WELCOME} | at 3,22: Wall ahead")
+def test_a_place_has_its_bubble_beside_the_welcome_and_each_is_drawn_when_it_comes(room: Maker) -> None:
+    check_says(room, f"start: {WELCOME} | at 3,22: Wall ahead | after 2 s!: Go on")
     assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
     assert [read_ticks("x" * long) for long in (20, 21)] == [3 * TICKS_PER_SECOND, 4 * TICKS_PER_SECOND]
     room.press("f5")
     play = room.shown(PlaytestScreen).play
-    room.frames(waits * 40, ms=25)
+    room.frames(40, ms=25)
     assert not play.attempt.inputs, "it waits at its start"
+    assert said(play) == [WELCOME, ""]
     room.app.controls.poll = lambda: 4  # type: ignore[method-assign]
-    seen = []
-    for _ in range(7 * TICKS_PER_SECOND):
-        room.frames(ms=25)
-        seen.append(play.messages.text)
-    assert play.attempt.inputs
-    assert seen.index("Wall ahead") == pytest.approx((6 - waits) * TICKS_PER_SECOND, abs=3)
-    assert set(seen[: seen.index("Wall ahead")]) == {WELCOME}
+    seen: list[list[str]] = []
+    for _ in range(3 * TICKS_PER_SECOND):
+        log = DrawLog()
+        with log.installed(), log.recording(room.app.theme.palette) as lines:
+            room.frames(ms=25)
+        picture = "\n".join(lines)
+        seen += [said(play)] * (not seen or said(play) != seen[-1])
+        assert [words in picture for words in ("Welcome to", "Wall ahead", "Go on")] == [
+            words in " ".join(said(play)) for words in ("Welcome to", "Wall ahead", "Go on")
+        ]
+    assert seen == [[WELCOME, ""], [WELCOME, "Wall ahead"], ["Go on", "Wall ahead"]]
 
 
-def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_short_is_none(doors: Maker) -> None:
+def test_a_new_text_keeps_away_from_the_one_that_is_there_and_that_one_stays(doors: Maker) -> None:
+    """The bubble comes beside a text of gold, and a text of a door beside the bubble."""
+    hud, places = Hud(doors.app.theme), dict[str, list[pygame.Rect]]()
+    check_says(doors, f"gold: {LONG} | at 9,22 9x5: {LONG[::-1]} | lock 11,22: Now {LONG}")
+    doors.press("f5")
+    play = doors.shown(PlaytestScreen).play
+    play.begin()
+    with patch.object(doors.app.controls, "poll", lambda: 2):
+        for _ in range(100):
+            play.run_ticks(1)
+            view = hud_view(play)
+            rects = []
+            for message in filter(None, (view.message, view.bubble)):
+                rects.append(pygame.Rect(*map(round, hud.box(message).area)))
+                places.setdefault(message.text, []).append(rects[-1])
+            assert len(rects) < 2 or not rects[0].colliderect(rects[1])
+    assert len(places) == 3
+    assert all(len(set(map(tuple, rects))) == 1 for rects in places.values()), "none moves"
+
+
+def test_what_is_lost_because_of_a_place_is_a_problem_and_a_welcome_cut_short_is_none(doors: Maker) -> None:
     session = doors.editor.session
     session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
     for says, late in (
-        (f"start: {WELCOME} | at 5,22: Wall ahead", f"'Wall ahead' is not shown {RUN}: others are read then"),
+        (f"at 3,22!: {WELCOME} | at 9,22: Wall ahead", f"'Wall ahead' is not shown {RUN}: others are read then"),
+        (f"start: {WELCOME} | at 3,22: Wall ahead", ""),
         (f"start: {WELCOME} | gold: Well", ""),
         (f"start: {WELCOME} | start: Two | trap: Late", ""),
     ):
@@ -860,9 +892,17 @@ def test_what_is_lost_because_of_the_welcome_is_a_problem_and_a_welcome_cut_shor
         doors.choose("Cancel")
 
 
+@pytest.mark.parametrize("time, is_short", [("", False), (" for 0.5 s", True), (" for 2 s", False)])
+def test_a_time_too_short_for_its_letters_is_shown_below_the_message(room: Maker, time: str, is_short: bool) -> None:
+    text = "Mind the mine behind the wall: it kills you"
+    opened(room, f"start{time}: {text}")
+    assert ("Too short to read: 43 letters need 5 s" in drawn(room.app)) is is_short
+    assert not [finding for finding in room.editor.session.examine() if finding.code == "late-message"]
+
+
 def test_an_important_message_comes_at_once_and_no_trifle_replaces_it(doors: Maker) -> None:
-    """What is shown while the ninja runs to the gold and the place, with and without the mark."""
-    says = f"start: {WELCOME} | gold: Gold | at 5,22: Beware of the guard ahead"
+    """What is shown while the ninja runs to the gold and the doors, with and without the mark."""
+    says = f"start: {WELCOME} | lock: Open | gold: Beware of the guard ahead"
     seen = []
     for marks in (0, 1):
         screen = opened(doors, says)
