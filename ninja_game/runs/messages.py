@@ -20,7 +20,7 @@ from ninja_game.sim.schema.world_fields import Event, TileMap, World
 from ninja_game.sim.states import SLIDING
 from ninja_game.simulation import Simulation
 
-SHOWN_TICKS = 240  # ticks for which a message is shown after its event
+USUAL_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
 _FADE_TICKS = 20  # ticks in which a message near a place fades at its end
 _GLANCE = TICKS_PER_SECOND  # ticks in which nobody reads a message
@@ -197,7 +197,7 @@ class MessageQueue:
             self._say_now(*_in_turn(new))
         if self._again and self._is_stuck(world, beside):
             self._again = False
-            self._say((AGAIN, SHOWN_TICKS, None))
+            self._say((AGAIN, USUAL_TICKS, None))
         if self._advises and (wall := self._slipped(world)) and not self.is_unread:
             towards, away = ("{right}", "{left}") if wall < 0 else ("{left}", "{right}")
             self._climb, self._foot = CLIMB % (towards, away), world.ninja.y
@@ -246,7 +246,7 @@ def read_ticks(text: str) -> int:
     return TICKS_PER_SECOND * (2 - -len(text) // 20)
 
 
-class Heard(NamedTuple):
+class Appearance(NamedTuple):
     """The tick in which a message comes in a run, and the ninja's place then, px."""
 
     due: int  #: the tick in which it comes as the only one, from 0
@@ -255,26 +255,26 @@ class Heard(NamedTuple):
     cut: int = 0  #: the ticks after which another replaces it before it was read; 0: none does
 
 
-def heard(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Heard | None]:
+def appearances(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Appearance | None]:
     """The moment of each message in a run; None if it never comes."""
     # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
     texts = [str(number).ljust(-(-len(message.text) // 20) * 20) for number, message in enumerate(messages)]
     numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
-    together, alone = _heard(numbered, level, inputs)
-    comings: list[Heard | None] = []
+    together, alone = _first_shown(numbered, level, inputs)
+    comings: list[Appearance | None] = []
     for message, text in zip(messages, texts, strict=True):
         wanted, coming = alone.get(text), together.get(text)
         if wanted is None or coming is None:
-            comings.append(wanted and Heard(wanted.tick, None, wanted.spot))
+            comings.append(wanted and Appearance(wanted.tick, None, wanted.spot))
         else:
             # A level waits at its start: its messages there can be read before the run.
             need = _GLANCE if message.when == "start" else read_ticks(text)
             is_cut = coming.ticks < min(wanted.ticks, need)
-            comings.append(Heard(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
+            comings.append(Appearance(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
     return comings
 
 
-def late_text(moment: Heard, ticks: int) -> str:
+def late_text(moment: Appearance, ticks: int) -> str:
     """The reason why a message cannot be read in time in a level's known run of ``ticks``; '' without one."""
     run = f"in the known run ({ticks / TICKS_PER_SECOND:.1f} s)"
     if moment.tick is None:
@@ -294,7 +294,7 @@ def short_text(message: LevelMessage) -> str:
 def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
     """Findings about messages that others displace in the known run, except those after another of their moment."""
     messages, past = parse_messages(says), set[tuple[object, ...]]()
-    comings = heard(messages, level, inputs) if inputs else []
+    comings = appearances(messages, level, inputs) if inputs else []
     for number, (message, coming) in enumerate(zip(messages, comings, strict=False)):
         moment = message.when, message.number, message.cell
         if coming and coming.tick is None and moment not in past:
@@ -315,7 +315,7 @@ _Comings = dict[str, _Coming]
 
 
 @lru_cache(maxsize=256)
-def _heard(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
+def _first_shown(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
     """The moments of texts in a run: of all together, and of each as if it were the only one."""
     run = Simulation(level)
     together, alone = _Comings(), _Comings()
@@ -335,7 +335,7 @@ def shown_ticks(when: str, together: int, text: str) -> int:
 
     A single one of the start or the switch stays longer, and so does a text that needs it.
     """
-    usual = START_TICKS if together == 1 and when in {"start", "switch"} else SHOWN_TICKS
+    usual = START_TICKS if together == 1 and when in {"start", "switch"} else USUAL_TICKS
     return max(usual, read_ticks(text))
 
 

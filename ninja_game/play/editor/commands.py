@@ -37,7 +37,7 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
-from ninja_game.runs.messages import heard
+from ninja_game.runs.messages import appearances
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
@@ -278,7 +278,7 @@ class EditorCommands(DocumentCommands):
         last = [playtest.inputs for playtest in session.playtests.shown[-1:] if playtest.level == level]
         runs = [session.certifying_inputs, *last, waits]
         with suppress(LevelError):  # without a ninja, which the playtest reports
-            moments = ((run, heard(messages, level, run)[number]) for run in filter(None, runs))
+            moments = ((run, appearances(messages, level, run)[number]) for run in filter(None, runs))
             lead = next((lead_in(level, run, moment.due) for run, moment in moments if moment), None)
             if lead is not None:
                 self.playtest(says=says, lead=lead)

@@ -40,7 +40,7 @@ from ninja_game.play.editor.sheet import said_at, things_of
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
-from ninja_game.runs.messages import Heard, heard, late_text, short_text, shown_ticks
+from ninja_game.runs.messages import Appearance, appearances, late_text, short_text, shown_ticks
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -99,15 +99,15 @@ def _things_of_run(level: Level, inputs: bytes, *, tagged: bool) -> Things:
     return things_at_start(level, Simulation(level).world, ["{exit}"] * tagged, inputs)
 
 
-_Question = tuple[tuple[LevelMessage, ...], Level, bytes, bool]
+_RunQuestion = tuple[tuple[LevelMessage, ...], Level, bytes, bool]
 """Messages, their level, the inputs of its known run, and whether texts name the switch or exit."""
-_Answer = tuple[_Question, list[Heard | None], Things]
+_RunAnswer = tuple[_RunQuestion, list[Appearance | None], Things]
 """When each message comes in that run, and what texts should not cover."""
 
 
-def _answer(question: _Question) -> _Answer:
+def _answer(question: _RunQuestion) -> _RunAnswer:
     messages, level, inputs, tagged = question
-    return question, heard(messages, level, inputs), _things_of_run(level, inputs, tagged=tagged)
+    return question, appearances(messages, level, inputs), _things_of_run(level, inputs, tagged=tagged)
 
 
 def _same(a: Sequence[object], b: Sequence[object]) -> int:
@@ -168,8 +168,8 @@ class MessagesScreen(MenuScreen):
         self._history = History(tuple(map(astuple, self.messages)))
         self._step: object = None  #: what the last change belongs to: a word that is being typed, a drag
         self._stages: dict[tuple[object, ...], _Stage] = {}
-        self._known: NewestJob[_Question, _Answer] = NewestJob(_answer)
-        self._asked: _Question | None = None
+        self._known: NewestJob[_RunQuestion, _RunAnswer] = NewestJob(_answer)
+        self._asked: _RunQuestion | None = None
         self._answer_drawn = True
         self._ground = Ground(draft.level)
         self._look, self._certifying_inputs = mood, certifying_inputs
@@ -475,7 +475,7 @@ class MessagesScreen(MenuScreen):
         texts = self._help_texts()
         if message:
             self._draw_notes(surface, message)
-            odd, moment = self._unseen(message), self._heard(message)
+            odd, moment = self._unseen(message), self._appearance(message)
             wrong, remark = self._wrong(message), self._wait_of(message)
             if wrong or remark:
                 text = f"Message {self.list.index + 1} is wrong. {wrong}" if wrong else remark
@@ -568,7 +568,7 @@ class MessagesScreen(MenuScreen):
             self._asked, self._answer_drawn = question, False
             self._known.ask(question)
 
-    def _heard(self, message: MessageRow) -> Heard | None:
+    def _appearance(self, message: MessageRow) -> Appearance | None:
         """When a message comes in the known run; None: never, without such a run, or not known yet."""
         answer, sound = self._known.result, self._sound()
         if not answer or answer[0] != self._asked or message not in sound:
@@ -578,7 +578,7 @@ class MessagesScreen(MenuScreen):
     def _wait_of(self, message: MessageRow, *, lost: bool = False) -> str:
         """That a message is lost to others in the known run, or how late or short it is; '' if it is not."""
         sound = () if lost or message.problem[1] else parse_messages(message.source)
-        moment = self._heard(message) if self._together(message)[0] is message else None
+        moment = self._appearance(message) if self._together(message)[0] is message else None
         is_so = moment and (moment.tick is None) is lost
         late = late_text(moment, len(self._certifying_inputs())) if moment and is_so else ""
         text = late or "".join(map(short_text, sound))
@@ -615,7 +615,7 @@ class MessagesScreen(MenuScreen):
             return controls.name(word) if word in KEYS else f"{{{word}}}"
 
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
-        parsed, moment = self._parsed(message), self._heard(message)
+        parsed, moment = self._parsed(message), self._appearance(message)
         if moment and message.when != "start":
             spot: Point | None = moment.spot
         else:

@@ -30,8 +30,8 @@ from ninja_game.runs.messages import (
     CLIMBED,
     FALL_HELP,
     QUIET_TICKS,
-    SHOWN_TICKS,
     START_TICKS,
+    USUAL_TICKS,
     MessageQueue,
     in_two,
     read_ticks,
@@ -165,12 +165,12 @@ def test_each_text_has_its_moment(driver: MenuDriver) -> None:
     messages = MessageQueue(says)
     simulation = Simulation(short_level(gold=1))
     seen = [messages.text]
-    for _ in range(60 + SHOWN_TICKS):
+    for _ in range(60 + USUAL_TICKS):
         simulation.step_keys(2)
         if messages.on_tick(simulation.world):
             seen.append(messages.text)
     assert seen in (["go", "gold", "open"], ["go", "open", "gold"])
-    for _ in range(START_TICKS + SHOWN_TICKS):
+    for _ in range(START_TICKS + USUAL_TICKS):
         messages.on_tick(simulation.world)
     assert messages.text == ""
     messages.at_start()
@@ -185,7 +185,7 @@ def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> No
     messages = MessageQueue(parse_messages("start: go | gold: gold"))
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
-    for tick in range(START_TICKS + SHOWN_TICKS + 1):
+    for tick in range(START_TICKS + USUAL_TICKS + 1):
         simulation.step_keys(2 if tick < 8 else 0)
         if messages.on_tick(simulation.world):
             seen.append((tick, messages.text))
@@ -274,7 +274,7 @@ def test_of_two_places_with_the_ninja_the_one_reached_last_comes_first_unless_on
 
 def test_two_texts_of_one_place_come_one_after_the_other() -> None:
     heard = places_heard("at 3,22: One | at 3,22: Two", lambda _: 3, 600)
-    assert heard == [(0, "One"), (SHOWN_TICKS, "Two")]
+    assert heard == [(0, "One"), (USUAL_TICKS, "Two")]
 
 
 def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> None:
@@ -292,7 +292,7 @@ def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> No
 def test_a_time_that_was_replaced_before_it_was_read_comes_again() -> None:
     queued = MessageQueue(parse_messages("after 1 s: Time | gold: Gold | trap: Shut"))
     run, seen, need = Simulation(room_level(["#@..#"], ())), [], read_ticks("Gold")
-    for tick in range(1, 5 * SHOWN_TICKS):
+    for tick in range(1, 5 * USUAL_TICKS):
         run.step_keys(0)
         run.world.event_count = int(tick in (1, 150))
         run.world.events[0].kind = GOLD_TAKEN if tick == 1 else TRAP_CLOSED
@@ -304,7 +304,7 @@ def test_what_just_happened_waits_until_an_important_message_was_read() -> None:
     told = MessageQueue(parse_messages("start: Go on | lock!: One | gold: Gold | trap!: Shut"))
     world = Simulation(room_level(["#@..#"], ())).world
     seen, kinds = [], {0: LOCK_OPENED, 20: GOLD_TAKEN, 40: TRAP_CLOSED}
-    for tick in range(9 * SHOWN_TICKS):
+    for tick in range(9 * USUAL_TICKS):
         world.event_count, world.events[0].kind = int(tick in kinds), kinds.get(tick, 0)
         seen += [(tick, told.text)] if told.on_tick(world) else []
     assert seen[:2] == [(0, "One"), (40, "Shut")], "another important one replaces it, no gold"
