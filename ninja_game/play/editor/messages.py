@@ -77,8 +77,8 @@ _WHEN = {
 """The name of each moment, and when it is."""
 
 _HELP = (
-    "What happens replaces the text before it, a place the bubble before it; a time waits.",
-    "An important text (!) holds other texts back until it was read, a bubble other bubbles.",
+    "A place has its own bubble. An event (gold, a door) replaces the text that is shown; a time waits for it.",
+    "An important message (!) is never replaced before it was read.",
     "In a level with messages the game gives no help of its own in play.",
     "Ctrl+Z undoes the last change here, a text word by word; Ctrl+Y redoes it.",
 )
