@@ -6,8 +6,6 @@ The run that is known is played in the varied level by the world itself; where i
 the same number is tried. It takes some minutes. `--check 2000` plays a sample of the table's levels instead.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections import Counter

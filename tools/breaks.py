@@ -16,8 +16,6 @@ tries the breaks of the rules that `rule_changes.tsv` lists, without ../shared, 
 says which are left and why.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import copy

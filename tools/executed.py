@@ -1,7 +1,5 @@
 """Which tests execute which lines of the program, and how long each takes: a plugin of pytest, loaded by breaks.py."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections import Counter

@@ -3,8 +3,6 @@
 Difficulties in turn. What is in FOLDER already is not made again; the file is written when all are there.
 """
 
-from __future__ import annotations
-
 import argparse
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Write golden digests, our replays, the list of promises: `python3 tools/dev.py golden` (tests/golden/README.md)."""
 
-from __future__ import annotations
-
 from tests.support.golden_generated import write_generated
 from tests.support.golden_runs import GOLDEN, write_golden_files
 from tests.support.promises import write_promises

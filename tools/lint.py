@@ -1,7 +1,5 @@
 """Checks the rules of this project's code that no linter has; `tools/dev.py lint` runs it after the linters."""
 
-from __future__ import annotations
-
 import ast
 import re
 import subprocess

@@ -5,8 +5,6 @@
 The same recipes always give the same sound. A file whose sound is as it was is left alone: its bytes hold chance.
 """
 
-from __future__ import annotations
-
 from io import BytesIO
 from pathlib import Path
 

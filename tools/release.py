@@ -6,8 +6,6 @@
 The same commit gives the same bytes on the same system. Nothing is uploaded.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json

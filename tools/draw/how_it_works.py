@@ -1,7 +1,5 @@
 """Draw the pictures of docs/ that explain, from the rules and the figures of the lab, and write docs/settings.md."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from xml.sax.saxutils import escape
 

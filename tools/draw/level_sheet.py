@@ -4,8 +4,6 @@ Red: the run to the exit; yellow: the run with all gold, where the certificates 
 picture with the list of questions in levels/README.md.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

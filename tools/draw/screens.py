@@ -3,8 +3,6 @@
 Those of docs/good-levels.md too, and the text about them there.
 """
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path

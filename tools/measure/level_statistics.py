@@ -8,8 +8,6 @@ and which levels of the set share most of its solid cells. Of the set it says wh
 alike.
 """
 
-from __future__ import annotations
-
 import argparse
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -5,8 +5,6 @@
 ``--write`` puts the tables into docs/sound.md. What the limits are, tests/play/test_sound_files.py knows.
 """
 
-from __future__ import annotations
-
 import sys
 import warnings
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The entry points that can be tried in one process: functions from bytes, with all that is done before play."""
 
-from __future__ import annotations
-
 import json
 import re
 import sqlite3

@@ -9,8 +9,6 @@ in the folder ``--corpus``. Exit code 0: nothing found; 1: something was; each f
 printed with its traceback and what repeats it.
 """
 
-from __future__ import annotations
-
 import argparse
 import faulthandler
 import os

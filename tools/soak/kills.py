@@ -10,8 +10,6 @@ said; the editor loses at most two seconds of drawing; the TAS editor (tas witho
 its last edit; and no file is half written.
 """
 
-from __future__ import annotations
-
 import argparse
 import multiprocessing
 import os

@@ -1,7 +1,5 @@
 """Inputs made odd, by their structure: texts by tokens and lines, JSON by its tree, zips by what lies in them."""
 
-from __future__ import annotations
-
 import io
 import json
 import random

@@ -4,8 +4,6 @@ Lengths follow the events (presentation.md §6), the sounds are our own. Waves a
 samples a second.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

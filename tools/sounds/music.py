@@ -3,8 +3,6 @@
 A loop is eight bars. Everything is added round its end, echoes too, so that it has no seam.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 
