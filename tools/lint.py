@@ -26,8 +26,7 @@ REASONS = {
 }
 """Names that two modules share with a good reason; a command may have the name of what does its work."""
 
-LIKE = {"demonstration"}
-"""A public function and the type of what it makes."""
+LIKE = {"demonstration"}  #: a public function and the type of what it makes
 
 HIDDEN_PARAMETERS = {"record", "site"}
 """Options of commands beside a command of that name: click passes them by their names."""

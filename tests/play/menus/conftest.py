@@ -11,14 +11,14 @@ from tests.support.menu_driver import MenuDriver
 from tests.support.pack_desk import Desk, rewrite
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def no_level_of_the_day(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.generator.daily.take_packed", lambda *_: False)
     monkeypatch.setattr("ninja_game.generator.daily.make_daily", lambda *_, **__: False)
 
 
 @pytest.fixture
-def driver(tmp_path: Path) -> Iterator[MenuDriver]:
+def driver(no_level_of_the_day: None, tmp_path: Path) -> Iterator[MenuDriver]:
     """The program at its main menu, with an empty folder of the player's."""
     driver = MenuDriver(tmp_path)
     yield driver
@@ -26,7 +26,7 @@ def driver(tmp_path: Path) -> Iterator[MenuDriver]:
 
 
 @pytest.fixture(name="empty_desk")
-def desk_without_packs(tmp_path: Path) -> Iterator[Desk]:
+def desk_without_packs(no_level_of_the_day: None, tmp_path: Path) -> Iterator[Desk]:
     desk = Desk(tmp_path)
     yield desk
     desk.close()
