@@ -40,7 +40,8 @@ from ninja_game.play.editor.sheet import said_at, things_of
 from ninja_game.play.level.hud_view import named_in
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.play.menu_screen import CANCEL, Action, Menu, MenuRow, MenuScreen, ask_to_keep
-from ninja_game.runs.messages import Appearance, appearances, late_text, short_text, shown_ticks
+from ninja_game.runs.message_appearances import Appearance, appearances, late_text, short_text
+from ninja_game.runs.message_queue import shown_ticks
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.level import COLUMNS, ROWS, Level
