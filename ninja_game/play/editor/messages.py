@@ -34,7 +34,8 @@ from ninja_game.formats.messages import (
 )
 from ninja_game.levels.episodes import Mood
 from ninja_game.levels.findings import LEVEL_WORDINGS, Finding
-from ninja_game.levels.lint import Ground, unseen_messages
+from ninja_game.levels.ground import Ground
+from ninja_game.levels.lint import unseen_messages
 from ninja_game.play.app import App
 from ninja_game.play.editor.sheet import said_at, things_of
 from ninja_game.play.level.hud_view import named_in
