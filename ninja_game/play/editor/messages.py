@@ -78,14 +78,14 @@ _WHEN = {
 
 _HELP = (
     "A place has its own bubble. An event (gold, a door) replaces the text that is shown; a time waits for it.",
-    "An important message (!) is never replaced before it was read.",
+    "Until an important message (!) was read, only another important one of its kind replaces it.",
     "In a level with messages the game gives no help of its own in play.",
     "Ctrl+Z undoes the last change here, a text word by word; Ctrl+Y redoes it.",
 )
 
 _HANDLE = 9.0  # side of the handles of the selected frame, px of the level
 
-_IMPORTANT_HINT = "The selected message comes at once, and is not replaced before it was read: marked with !"
+_IMPORTANT_HINT = "It comes at once, marked with !; until it was read, only another important one of its kind replaces it"
 
 _LIST_HINT = "Enter or a second click: to its text; Del takes it away, Ctrl+Up and Ctrl+Down move it"
 
