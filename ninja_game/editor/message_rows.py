@@ -15,6 +15,7 @@ from ninja_game.formats.messages import (
     SEPARATOR,
     WORDS,
     LevelMessage,
+    Moment,
     header_form,
     parse_messages,
     unknown_words,
@@ -24,11 +25,11 @@ from ninja_game.sim.grid import Cell
 _ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
 
 DETAILS = {
-    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE, "Which one")),
-    "gold": ("any", f"{_ONE}; 3: after so many", "Which, how many"),
-    "death": ("deaths", "How many deaths: a number from 1 to 99", "How many"),
-    "after": ("seconds", "How many seconds: a number from 0.1 to 99.9", "How many"),
-    "at": ("12,5", "Column and row, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3", "Cell, frame"),
+    **dict.fromkeys((Moment.SWITCH, Moment.LOCK, Moment.TRAP), ("any", _ONE, "Which one")),
+    Moment.GOLD: ("any", f"{_ONE}; 3: after so many", "Which, how many"),
+    Moment.DEATH: ("deaths", "How many deaths: a number from 1 to 99", "How many"),
+    Moment.AFTER: ("seconds", "How many seconds: a number from 0.1 to 99.9", "How many"),
+    Moment.AT: ("12,5", "Column and row, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3", "Cell, frame"),
 }
 """What some moments may need besides: an example, a hint, and what the field is called."""
 
@@ -44,9 +45,9 @@ def listed(words: Sequence[str]) -> str:
 
 @dataclass(eq=False)
 class MessageRow:
-    """A message in the list. ``when``: as of a LevelMessage. As typed: ``detail``, of DETAILS; ``time``, seconds."""
+    """A message in the list. As typed: ``detail``, of DETAILS; ``time``, seconds."""
 
-    when: str = "start"
+    when: Moment = Moment.START
     detail: str = ""
     text: str = ""
     time: str = ""
@@ -55,7 +56,9 @@ class MessageRow:
     @property
     def moment(self) -> str:
         detail = " ".join(self.detail.split())
-        return f"{self.when} {detail.replace(',', '.')} s" if self.when == "after" else f"{self.when} {detail}".strip()
+        if self.when == Moment.AFTER:
+            return f"{self.when} {detail.replace(',', '.')} s"
+        return f"{self.when} {detail}".strip()
 
     @property
     def source(self) -> str:
@@ -69,7 +72,7 @@ class MessageRow:
         moment = self.moment
         if self.when in DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
             return DETAIL, DETAILS[self.when][1]
-        if not _fits(replace(self, when="start", detail="", text="a text").source):
+        if not _fits(replace(self, when=Moment.START, detail="", text="a text").source):
             return TIME, _BAD_TIME
         if not self.text.strip():
             return TEXT, "Type what is said, or remove the message"
@@ -80,12 +83,12 @@ class MessageRow:
     @property
     def parsed(self) -> LevelMessage | None:
         """The message, with another text; None at the start, and for a moment that is wrong."""
-        timeless = self.when == "start" or self.problem[0] == DETAIL
+        timeless = self.when == Moment.START or self.problem[0] == DETAIL
         return None if timeless else parse_messages(f"{self.moment}: a text")[0]
 
     def put_at(self, cell: Cell, size: Cell) -> None:
         """Put the middle of its frame at a cell."""
-        self.detail = _detail(LevelMessage("at", "", cell=cell, size=size))
+        self.detail = _detail(LevelMessage(Moment.AT, "", cell=cell, size=size))
 
     @property
     def unknown(self) -> str:

@@ -8,7 +8,7 @@ from functools import lru_cache
 from math import hypot
 from typing import NamedTuple
 
-from ninja_game.formats.messages import ALL_GOLD, LevelMessage, parse_messages
+from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
@@ -24,7 +24,7 @@ USUAL_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
 _FADE_TICKS = 20  # ticks in which a message near a place fades at its end
 _GLANCE = TICKS_PER_SECOND  # ticks in which nobody reads a message
-_WAITS = {"at", "after"}  # moments that wait for what is shown, and come again if they were not read
+_WAITS = {Moment.AT, Moment.AFTER}  # moments that wait for what is shown, and come again if they were not read
 
 _STILL = 0.05  # slower than this the ninja is still, px/tick
 
@@ -46,7 +46,12 @@ _Text = tuple[str, int, LevelMessage | None]
 
 _NOTHING: _Text = "", 0, None
 
-_WHEN = {EXIT_OPENED: "switch", GOLD_TAKEN: "gold", LOCK_OPENED: "lock", TRAP_CLOSED: "trap"}
+_MOMENT_OF_EVENT = {
+    EXIT_OPENED: Moment.SWITCH,
+    GOLD_TAKEN: Moment.GOLD,
+    LOCK_OPENED: Moment.LOCK,
+    TRAP_CLOSED: Moment.TRAP,
+}
 
 WHY = {
     "zap drone": "Its touch kills. Watch where it goes, and wait until it has passed.",
@@ -101,8 +106,8 @@ class MessageQueue:
     def at_start(self) -> None:
         """Called when the level waits at its start; messages that still waited count as not shown."""
         self._shown -= self._unread.union(message for _, _, message in self._next if message)
-        due = [message for message in self._messages if message.when == "death" and message.number == self.deaths]
-        starts = [message for message in self._messages if message.when == "start" and message not in self._shown]
+        due = [message for message in self._messages if message.when == Moment.DEATH and message.number == self.deaths]
+        starts = [message for message in self._messages if message.when == Moment.START and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
         self.spot: Point | None = None
         self.taken: tuple[float, float, float, float] | None = None
@@ -132,7 +137,7 @@ class MessageQueue:
     @property
     def is_start(self) -> bool:
         """Whether the present text belongs to the start, also when it is not shown any more."""
-        return bool(self.message and self.message.when == "start")
+        return bool(self.message and self.message.when == Moment.START)
 
     @property
     def is_unread(self) -> bool:
@@ -268,7 +273,7 @@ def appearances(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -
             comings.append(wanted and Appearance(wanted.tick, None, wanted.spot))
         else:
             # A level waits at its start: its messages there can be read before the run.
-            need = _GLANCE if message.when == "start" else read_ticks(text)
+            need = _GLANCE if message.when == Moment.START else read_ticks(text)
             is_cut = coming.ticks < min(wanted.ticks, need)
             comings.append(Appearance(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
     return comings
@@ -330,12 +335,12 @@ def _first_shown(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes
     return together, alone
 
 
-def shown_ticks(when: str, together: int, text: str) -> int:
+def shown_ticks(when: Moment, together: int, text: str) -> int:
     """Ticks for a text without a time of its own, of a moment with ``together`` texts.
 
     A single one of the start or the switch stays longer, and so does a text that needs it.
     """
-    usual = START_TICKS if together == 1 and when in {"start", "switch"} else USUAL_TICKS
+    usual = START_TICKS if together == 1 and when in {Moment.START, Moment.SWITCH} else USUAL_TICKS
     return max(usual, read_ticks(text))
 
 
@@ -348,14 +353,14 @@ def _in_turn(messages: Sequence[LevelMessage]) -> list[_Text]:
 
 
 def _is_of(message: LevelMessage, event: Event, world: World) -> bool:
-    if event.kind == GOLD_TAKEN and message.when == ALL_GOLD:
+    if event.kind == GOLD_TAKEN and message.when == Moment.ALL_GOLD:
         return all(o.kind != GOLD or o.taken for o in world.objects[1:])
-    is_moment = _WHEN.get(event.kind) == message.when and message.is_about(event.x, event.y)
-    return is_moment and not (message.when == "gold" and world.gold < message.number)
+    is_moment = _MOMENT_OF_EVENT.get(event.kind) == message.when and message.is_about(event.x, event.y)
+    return is_moment and not (message.when == Moment.GOLD and world.gold < message.number)
 
 
 def _is_due(world: World, message: LevelMessage) -> bool:
-    return message.when == "after" and world.tick >= message.number * TICKS_PER_SECOND
+    return message.when == Moment.AFTER and world.tick >= message.number * TICKS_PER_SECOND
 
 
 def _is_near(world: World, message: LevelMessage) -> bool:

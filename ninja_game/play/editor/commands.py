@@ -20,7 +20,7 @@ from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.messages import Moment, parse_messages
 from ninja_game.levels.episodes import GAME, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
@@ -271,7 +271,7 @@ class EditorCommands(DocumentCommands):
         """
         session, messages = self.session, parse_messages(says)
         level, message = session.draft.level, messages[number] if messages else None
-        if message is None or message.when in {"start", "death"}:
+        if message is None or message.when in {Moment.START, Moment.DEATH}:
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
@@ -283,7 +283,7 @@ class EditorCommands(DocumentCommands):
             if lead is not None:
                 self.playtest(says=says, lead=lead)
                 return
-        at = place and place_before(session.draft, place, message.size, touch=message.when != "at")
+        at = place and place_before(session.draft, place, message.size, touch=message.when != Moment.AT)
         self.playtest(at, says=says)
 
     def certify(self) -> None:

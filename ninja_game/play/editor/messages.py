@@ -17,7 +17,6 @@ from ninja_game.editor.message_rows import DETAILS, GRIP, TEXT, TIME, MessageRow
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
-    ALL_GOLD,
     FRAME_SIZE,
     IMPORTANT,
     KEYS,
@@ -28,6 +27,7 @@ from ninja_game.formats.messages import (
     SEPARATOR,
     WORDS,
     LevelMessage,
+    Moment,
     arrow_targets,
     level_text,
     parse_messages,
@@ -64,15 +64,15 @@ _PICTURE: Area = (342, _TOP, 422, 422 * HEIGHT / WIDTH)  # where the level is sh
 _ASIDE: Area = (484, 388, 280, 134)  # where what is wrong is said, and help
 
 _WHEN = {
-    "start": ("At the start", "At each start, until the exit is open"),
-    "switch": ("Exit opens", "Once, when the ninja opens the exit"),
-    "gold": ("Gold is taken", "Once, when the ninja takes the first gold"),
-    ALL_GOLD: ("All gold taken", "Once, when the ninja has taken the last gold"),
-    "death": ("After deaths", "At the start, after so many deaths"),
-    "lock": ("A door unlocks", "Once, when a locked door opens"),
-    "trap": ("A trap closes", "Once, when a trap door closes"),
-    "after": ("After seconds", "Once, when a try has lasted so long"),
-    "at": ("Near a place", "Beside it, when the ninja first comes into its frame, while it is there"),
+    Moment.START: ("At the start", "At each start, until the exit is open"),
+    Moment.SWITCH: ("Exit opens", "Once, when the ninja opens the exit"),
+    Moment.GOLD: ("Gold is taken", "Once, when the ninja takes the first gold"),
+    Moment.ALL_GOLD: ("All gold taken", "Once, when the ninja has taken the last gold"),
+    Moment.DEATH: ("After deaths", "At the start, after so many deaths"),
+    Moment.LOCK: ("A door unlocks", "Once, when a locked door opens"),
+    Moment.TRAP: ("A trap closes", "Once, when a trap door closes"),
+    Moment.AFTER: ("After seconds", "Once, when a try has lasted so long"),
+    Moment.AT: ("Near a place", "Beside it, when the ninja first comes into its frame, while it is there"),
 }
 """The name of each moment, and when it is."""
 
@@ -245,18 +245,19 @@ class MessagesScreen(MenuScreen):
         moment = Button((_LEFT, _FIELDS, width, 26), name, lambda: self._ask_moment(change, message.when))
         usual = shown_ticks(message.when, len(self._together(message)), message.text) // TICKS_PER_SECOND
         put_time = partial(setattr, message, "time")
-        auto = "while there" if message.when == "at" else f"auto ({usual} s)"
+        auto = "while there" if message.when == Moment.AT else f"auto ({usual} s)"
         time = TextEntry((300, _FIELDS, 92, 26), auto, message.time, put_time, longest=6, hint=_TIME_HINT)
         return [moment, detail, time, text]
 
-    def _ask_moment(self, choose: Callable[[str], object], at: str) -> None:
+    def _ask_moment(self, choose: Callable[[Moment], object], at: Moment) -> None:
         rows: list[MenuRow] = [(name, partial(choose, when), about) for when, (name, about) in _WHEN.items()]
         self.app.push(Menu(self.app, "When is it said?", [*rows, CANCEL], at=list(_WHEN).index(at)))
 
-    def _change_moment(self, message: MessageRow, when: str) -> None:
+    def _change_moment(self, message: MessageRow, when: Moment) -> None:
         if when != message.when:
             message.when = when
-            message.detail = {"death": "3", "after": "20", "at": "{},{}".format(*self._here)}.get(when, "")
+            details = {Moment.DEATH: "3", Moment.AFTER: "20", Moment.AT: "{},{}".format(*self._here)}
+            message.detail = details.get(when, "")
             self.enter()
 
     @property
@@ -313,12 +314,13 @@ class MessagesScreen(MenuScreen):
             self.select(number)
         elif parsed and all(abs(a - b) < half for a, b, half in zip(at, parsed.middle, parsed.reach, strict=True)):
             self._dragged_frame = partial(moved_frame, parsed.frame, cell)
-        elif selected and selected.when == "at":
+        elif selected and selected.when == Moment.AT:
             if is_inside(cell_of(*at)):
-                self._put_frame(LevelMessage("at", "", cell=cell, size=parsed.size if parsed else FRAME_SIZE).frame)
+                size = parsed.size if parsed else FRAME_SIZE
+                self._put_frame(LevelMessage(Moment.AT, "", cell=cell, size=size).frame)
                 self._dragged_frame = partial(area_between, cell)
         elif selected and not named and away >= near:
-            self.app.notify(f"To put it there, choose {_WHEN['at'][0]} for it")
+            self.app.notify(f"To put it there, choose {_WHEN[Moment.AT][0]} for it")
 
     def _put_frame(self, frame: CellArea) -> None:
         """Give the selected message a frame, if its middle is inside the level."""
@@ -329,12 +331,12 @@ class MessagesScreen(MenuScreen):
             self.enter()
 
     def _add(self) -> None:
-        def choose(when: str) -> None:
+        def choose(when: Moment) -> None:
             self.messages.append(MessageRow())
             self._change_moment(self.messages[-1], when)
             self.select(len(self.messages) - 1)
 
-        self._ask_moment(choose, "start")
+        self._ask_moment(choose, Moment.START)
 
     def _put_at(self, number: int, message: MessageRow, others: list[MessageRow]) -> None:
         """Show the messages with one at that place among others, selected."""
@@ -540,7 +542,7 @@ class MessagesScreen(MenuScreen):
         if selected:
             name, when = _WHEN[selected.when]
             texts.append(f"{name}: {when[0].lower()}{when[1:]}.")
-        if selected and selected.when == "at":
+        if selected and selected.when == Moment.AT:
             texts.append("In the picture: a click puts it, a drag draws its frame, moves it or an edge.")
         if len(self._things_of(selected)) > 1:
             texts.append("A click in the picture on one of them: only when it is that one.")
@@ -589,7 +591,7 @@ class MessagesScreen(MenuScreen):
 
     def _stage(self, message: MessageRow | None) -> _Stage:
         """The level's picture for a message, painted once for each look."""
-        width, opened = self.theme.canvas.rect(*_PICTURE).width, bool(message and message.when == "switch")
+        width, opened = self.theme.canvas.rect(*_PICTURE).width, bool(message and message.when == Moment.SWITCH)
         palette, text_size = self.app.palette_in(self._look), self.app.settings.text_size
         look = palette.name, width, self.theme, text_size
         if (*look, opened) not in self._stages:
@@ -608,20 +610,20 @@ class MessagesScreen(MenuScreen):
     def _placed(self, message: MessageRow, stage: _Stage) -> PlacedMessage | None:
         """A message as it lies in the level in play; None without a text."""
         controls, all_gold, number = self.app.controls, self._draft.level.gold, message.detail
-        taken = {ALL_GOLD: all_gold, "gold": int(number) if number.isdecimal() else 1}.get(message.when, 0)
-        deaths = int(number) if message.when == "death" and number.isdecimal() else 0
+        taken = {Moment.ALL_GOLD: all_gold, Moment.GOLD: int(number) if number.isdecimal() else 1}.get(message.when, 0)
+        deaths = int(number) if message.when == Moment.DEATH and number.isdecimal() else 0
 
         def key(word: str) -> str:
             return controls.name(word) if word in KEYS else f"{{{word}}}"
 
         text = level_text(message.text.strip(), key, taken, all_gold, deaths)
         parsed, moment = self._parsed(message), self._appearance(message)
-        if moment and message.when != "start":
+        if moment and message.when != Moment.START:
             spot: Point | None = moment.spot
         else:
             spot = None if parsed else self._eye(message)
         layout = self._draft.level.tiles, self._things(stage), parsed, spot
-        return placed_message(text, *layout, of_start=message.when == "start") if text else None
+        return placed_message(text, *layout, of_start=message.when == Moment.START) if text else None
 
     def _draw_level(self, surface: pygame.Surface, message: MessageRow | None) -> None:
         """The level with a message as in play, and the places of all."""
@@ -665,7 +667,7 @@ class MessagesScreen(MenuScreen):
 
     def _parsed(self, message: MessageRow | None) -> LevelMessage | None:
         """A message near a place as the level will have it; None for others and without a valid place."""
-        return message.parsed if message and message.when == "at" else None
+        return message.parsed if message and message.when == Moment.AT else None
 
     def _eye(self, message: MessageRow) -> Point | None:
         """Where the ninja is when a message appears, px; None at the start, or where that is unknown."""

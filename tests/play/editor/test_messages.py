@@ -18,7 +18,7 @@ from ninja_game.editor.playtests import lead_in, place_before
 from ninja_game.editor.solver import search_of
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, WORDS, level_text, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, WORDS, Moment, level_text, parse_messages
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.editor import messages as messages_module
@@ -316,17 +316,17 @@ def test_all_messages_fit_into_the_page_and_one_is_removed(room: Maker) -> None:
 @pytest.mark.parametrize(
     "message, in_detail, wanted",
     [
-        (MessageRow("start", "", " "), False, "Type what is said"),
-        (MessageRow("start", "", "{fly} flies"), False, "{fly} is not one of {left}"),
-        (MessageRow("at", "32,1", "x"), True, "31,23"),
-        (MessageRow("after", "0", "x"), True, "How many seconds"),
+        (MessageRow(Moment.START, "", " "), False, "Type what is said"),
+        (MessageRow(Moment.START, "", "{fly} flies"), False, "{fly} is not one of {left}"),
+        (MessageRow(Moment.AT, "32,1", "x"), True, "31,23"),
+        (MessageRow(Moment.AFTER, "0", "x"), True, "How many seconds"),
     ],
 )
 def test_what_is_wrong_keeps_the_focus_and_is_said(
     room: Maker, message: MessageRow, in_detail: bool, wanted: str
 ) -> None:
     screen = opened(room)
-    show(screen, MessageRow("start", "", "fine"), message)
+    show(screen, MessageRow(Moment.START, "", "fine"), message)
     room.choose("OK")
     assert room.top() is screen
     assert (wanted if message.unknown == "" else "There is no {fly}") in words(room)
@@ -947,7 +947,7 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
     fixed = [room.button(text).area for text in BUTTONS]
-    show(screen, *[MessageRow("at", "8,21", "x")] * count)
+    show(screen, *[MessageRow(Moment.AT, "8,21", "x")] * count)
     assert [room.button(text).area for text in BUTTONS] == fixed
     seen = (widget.area for widget in screen.widgets if not isinstance(widget, Label))
     areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *seen)]
@@ -976,13 +976,13 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     assert "text 'switch'" in shown
     assert "text 'exit'" in shown
     assert len(painted) == 1
-    screen.messages.append(MessageRow("start", "", "Now the {exit}"))
+    screen.messages.append(MessageRow(Moment.START, "", "Now the {exit}"))
     screen.select(1)
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what the selected one names"
     assert "text 'exit'" in shown
     screen.select(0)
-    screen.messages[0].when = "switch"
+    screen.messages[0].when = Moment.SWITCH
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "the exit is open by then"
     assert "text 'exit'" in shown
@@ -1067,11 +1067,11 @@ def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> N
 
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen = opened(room)
-    for when, never in (("lock", True), ("start", False), ("gold", True)):
+    for when, never in ((Moment.LOCK, True), (Moment.START, False), (Moment.GOLD, True)):
         show(screen, MessageRow(when, "", "x"))
         assert ("Message 1 is wrong. Never shown: there is no" in words(room)) is never
         assert ("Choose another moment or place for it" in words(room)) is never
-    show(screen, MessageRow("start", "", "x"), MessageRow("trap", "", "y: z"))
+    show(screen, MessageRow(Moment.START, "", "x"), MessageRow(Moment.TRAP, "", "y: z"))
     assert "Never shown" not in words(room)
     assert "text 'Trap' at 78,81.8 size 9 bad" in drawn(room.app), "also one that is not selected"
 
@@ -1085,7 +1085,7 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
     screen.messages[0].text = "long " * 24
     assert "7 s late in" in words(room)
     select(room, 2)
-    screen.messages[2].when, screen.messages[2].detail = "after", "3"
+    screen.messages[2].when, screen.messages[2].detail = Moment.AFTER, "3"
     monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(300)))
     assert "Not shown in the known run (7.5 s): others are read then" in words(room)
 
@@ -1093,7 +1093,7 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
-    show(screen, MessageRow("start", "", text), MessageRow("start", "", "y"))
+    show(screen, MessageRow(Moment.START, "", text), MessageRow(Moment.START, "", "y"))
     field = screen.fields[TEXT]
     assert isinstance(field, TextArea)
     screen.redraw = True
@@ -1301,17 +1301,23 @@ def test_tab_leads_from_the_list_through_the_fields_to_ok(room: Maker) -> None:
     assert screen.focus is screen.list
 
 
-ODD = MessageRow("at", "12,5 15x11", "x" * 20 + " {an-unknown-word-that-is-far-too-long}"), MessageRow("trap", "", "y")
+ODD = (
+    MessageRow(Moment.AT, "12,5 15x11", "x" * 20 + " {an-unknown-word-that-is-far-too-long}"),
+    MessageRow(Moment.TRAP, "", "y"),
+)
 
 
 @pytest.mark.parametrize("size", TEXT_SIZES.values())
 def test_nothing_beside_the_fields_is_cut_in_any_size_of_text(doors: Maker, size: int) -> None:
     doors.app.change_settings(text_size=size)
     screen = opened(doors)
-    sound = [MessageRow(when, {"death": "1", "after": "2", "at": "5,5"}.get(when, ""), LONG) for when in _WHEN]
+    sound = [
+        MessageRow(when, {Moment.DEATH: "1", Moment.AFTER: "2", Moment.AT: "5,5"}.get(when, ""), LONG) for when in _WHEN
+    ]
     empty = [MessageRow(when) for when in _WHEN]
-    lost = [MessageRow("at", "20,20", "Four"), MessageRow("gold", "", "long " * 24)]
-    for rows in (sound, empty, [*ODD, *lost, MessageRow("start", "", "x", "0.01"), MessageRow("at", "99,99", "z")]):
+    lost = [MessageRow(Moment.AT, "20,20", "Four"), MessageRow(Moment.GOLD, "", "long " * 24)]
+    wrong = [MessageRow(Moment.START, "", "x", "0.01"), MessageRow(Moment.AT, "99,99", "z")]
+    for rows in (sound, empty, [*ODD, *lost, *wrong]):
         show(screen, *rows)
         room_for_empty = screen._refused = rows is empty
         for number in range(len(rows)):

@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.messages import LevelMessage, parse_messages
+from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
@@ -697,7 +697,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(short_level()))),
         " ".join(["word"] * words),
     )
-    level.play.places._say((text, 99, LevelMessage("at", text, cell=cell_of(*place))))
+    level.play.places._say((text, 99, LevelMessage(Moment.AT, text, cell=cell_of(*place))))
     level.play.places.spot = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.bubble
@@ -854,7 +854,7 @@ def test_a_word_without_end_stays_in_the_window_in_the_largest_letters(*, near: 
 def test_a_short_text_beside_a_place_hides_no_exit_no_switch_and_no_enemy(name: str, cell: tuple[int, int]) -> None:
     level = load_levels(str(Path(__file__).parents[3] / "levels" / f"{name}.txt"))[0].level
     things, place = things_at_start(level, Simulation(level).world, [], b""), middle_of(cell)
-    hud, here = Hud(Theme(CLASSIC, Canvas((792, 600)))), LevelMessage("at", "Jump here", cell=cell)
+    hud, here = Hud(Theme(CLASSIC, Canvas((792, 600)))), LevelMessage(Moment.AT, "Jump here", cell=cell)
     box = hud.box(placed_message(here.text, level.tiles, things, here, place, of_start=False))
     assert MUST not in hidden_by(things, *box.area)
     assert away_from(place, *box.area) <= 4.2 * CELL
