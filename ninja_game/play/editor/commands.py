@@ -37,7 +37,7 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
-from ninja_game.runs.messages import appearances
+from ninja_game.runs.message_appearances import appearances
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA

@@ -12,7 +12,7 @@ from ninja_game.formats.messages import LevelMessage, arrow_targets, parse_messa
 from ninja_game.levels.findings import LEVEL_WORDINGS, Finding
 from ninja_game.levels.lint import Ground, unseen_messages
 from ninja_game.play.level.level_play import things_at_start
-from ninja_game.runs.messages import Appearance, appearances, late_text, short_text
+from ninja_game.runs.message_appearances import Appearance, appearances, late_text, short_text
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation

@@ -11,7 +11,7 @@ from ninja_game.editor.message_rows import DETAILS, EditedMessages, Field, Messa
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGE_LINES, WORDS, Moment
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
-from ninja_game.runs.messages import shown_ticks
+from ninja_game.runs.message_queue import shown_ticks
 from ninja_game.sim.grid import Cell
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.ui.list_view import BAR_WIDTH, ListView

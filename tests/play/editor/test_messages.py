@@ -33,7 +33,7 @@ from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import LevelPlay, Phase
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import Playthrough
-from ninja_game.runs.messages import MessageQueue, read_ticks
+from ninja_game.runs.message_queue import MessageQueue, read_ticks
 from ninja_game.runtime import NewestJob
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
