@@ -52,7 +52,7 @@ class MessageChecks:
         self._edited = edited
         self._certifying_inputs = certifying_inputs
         self._ground = Ground(draft.level)
-        self._known_run: NewestJob[RunQuestion, RunAnswer] = NewestJob(_answer)
+        self.known_run: NewestJob[RunQuestion, RunAnswer] = NewestJob(_answer)
         self._asked: RunQuestion | None = None
         self._answer_is_news = False
 
@@ -64,11 +64,11 @@ class MessageChecks:
         if inputs and question != self._asked:
             self._asked = question
             self._answer_is_news = True
-            self._known_run.ask(question)
+            self.known_run.ask(question)
 
     def has_new_answer(self) -> bool:
         """Whether the answer about the known run has come since this was called last."""
-        came = self._answer_is_news and self._known_run.is_idle
+        came = self._answer_is_news and self.known_run.is_idle
         self._answer_is_news &= not came
         return came
 
@@ -82,12 +82,12 @@ class MessageChecks:
 
         Raises LevelError for a level that cannot be played.
         """
-        answer = self._known_run.result
+        answer = self.known_run.result
         return answer.things if answer else _things_of_run(self._level, b"", tagged=self._has_targets)
 
     def appearance(self, row: MessageRow) -> Appearance | None:
         """When a message comes in the known run; None: never, without such a run, or not known yet."""
-        answer = self._known_run.result
+        answer = self.known_run.result
         valid = self._edited.valid
         if not answer or answer.question != self._asked or row not in valid:
             return None
