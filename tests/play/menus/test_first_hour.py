@@ -15,7 +15,7 @@ from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
-from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase, things_at_start
+from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase, TextSpot, things_at_start
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
@@ -25,7 +25,7 @@ from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.playthrough import LevelPlaythrough
 from ninja_game.runs.advice import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, Advice
 from ninja_game.runs.deaths import SELF
-from ninja_game.runs.message_queue import _FADE_TICKS, START_TICKS, USUAL_TICKS, MessageQueue, in_two, read_ticks
+from ninja_game.runs.message_queue import FADE_TICKS, START_TICKS, USUAL_TICKS, MessageQueue, in_two, read_ticks
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.kinds import EXIT, SWITCH
@@ -231,7 +231,7 @@ def test_a_place_has_its_bubble_beside_what_just_happened_and_neither_waits() ->
                 texts.append((tick, queue.text))
     assert read_ticks(long.strip()) == 8 * TICKS_PER_SECOND
     assert heard[0][:3] == [(0, long.strip()), (40, "shut"), (50, "open")], "the newest, at once"
-    assert heard[1] == [(61, "Here"), (299 + _FADE_TICKS, "")], "as long as the ninja is there"
+    assert heard[1] == [(61, "Here"), (299 + FADE_TICKS, "")], "as long as the ninja is there"
 
 
 def places_heard(says: str, cell_in_tick: Callable[[int], float], ticks: int) -> list[tuple[int, str]]:
@@ -332,7 +332,7 @@ def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver:
     play.places.text, play.places.message, play.things = here.text, here, ()
     x, y, w, h = hud.box(hud_view(play).bubble or PlacedMessage("", (), (), None, covers=False)).area
     for spot in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
-        play.places.spot = spot
+        play.spots[play.places] = TextSpot(spot)
         placed = hud_view(play).bubble
         assert placed
         assert away_from(spot, *hud.box(placed).area) > 10
@@ -355,7 +355,7 @@ def test_text_at_a_place_is_said_there_once() -> None:
 @pytest.mark.parametrize(
     "source, stays, ticks",
     [
-        ("", 0, read_ticks("Here") + _FADE_TICKS), ("", 500, 500 + _FADE_TICKS),
+        ("", 0, read_ticks("Here") + FADE_TICKS), ("", 500, 500 + FADE_TICKS),
         (" for 1.5 s", 0, 60), (" for 1.5 s", 500, 60),
     ],
 )  # fmt: skip
@@ -367,11 +367,11 @@ def test_text_at_a_place_fades_when_the_ninja_has_left_and_it_was_read(source: s
     solid: list[float] = []
     while queued.text:
         ninja.x = 84.0 + 61 * (len(solid) >= stays)
-        solid.append(queued.opacity)
+        solid.append(min(1.0, queued.ticks_left / FADE_TICKS))
         queued.on_tick(world)
     assert len(solid) == pytest.approx(ticks, abs=2)
-    assert solid[:-_FADE_TICKS] == [1.0] * (len(solid) - _FADE_TICKS)
-    assert solid[-_FADE_TICKS:] == sorted(solid[-_FADE_TICKS:], reverse=True)
+    assert solid[:-FADE_TICKS] == [1.0] * (len(solid) - FADE_TICKS)
+    assert solid[-FADE_TICKS:] == sorted(solid[-FADE_TICKS:], reverse=True)
     assert solid[-1] < 0.1
 
 
@@ -661,7 +661,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     (text, tiles, things, _, covers, *_), far = hud_view(level.play).message or ("", (), (), None, False), []
     assert covers, "the text of the start stays where it was"
     level.play.messages._say(("Another one", 99, None))
-    level.play.messages.spot = (40, 500)
+    level.play.spots[level.play.messages] = TextSpot((40, 500))
     assert hud_view(level.play).message == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
     for about in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(PlacedMessage(text, tiles, things, about, covers=False))
@@ -688,7 +688,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         " ".join(["word"] * words),
     )
     level.play.places._say((text, 99, LevelMessage(Moment.AT, text, cell=cell_of(*place))))
-    level.play.places.spot = (10.0, 10.0)
+    level.play.spots[level.play.places] = TextSpot((10.0, 10.0))
     view = hud_view(level.play)
     assert view.bubble
     assert view.bubble[3:] == (place, False, (place[0] - 60, place[1] - 60, 120, 120), None, ())
