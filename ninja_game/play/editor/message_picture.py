@@ -69,7 +69,10 @@ class _Stage:
 
 
 class MessagePicture:
-    """``mood``: in which the level is played. ``select``: a message by number. ``changed``: the selected one is."""
+    """The level with the selected message. Presses and drags in it call ``select`` with a number, or ``changed``.
+
+    ``mood``: in which the level is played.
+    """
 
     def __init__(
         self,
