@@ -1,171 +1,29 @@
-"""Legal but odd content of a level: a finding names the objects and says what the game will do.
-
-A flood fill over cells finds where the ninja could get. It is generous, so "cannot be reached" is certain.
-"""
+"""Legal but odd content of a level: a finding names the objects and says what the game will do."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from math import cos, dist, isnan, pi, sin, sqrt
+from math import dist, isnan, sqrt
 
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.formats.messages import NO_CELL, Moment, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
+from ninja_game.levels.ground import Ground, edges_of
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision import tiles
 from ninja_game.sim.collision.rays import solid_at
-from ninja_game.sim.grid import cell_at, grid_remove
+from ninja_game.sim.grid import cell_at
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, makes_object, well_formed
-from ninja_game.sim.loader import tile_map
-from ninja_game.sim.objects.door import create_door
-from ninja_game.sim.schema.object_fields import Object
-from ninja_game.sim.schema.world_fields import CAPACITY, World
+from ninja_game.sim.schema.world_fields import CAPACITY
 from ninja_game.sim.states import LOCKED, TRAP
 
 Squares = dict[tuple[float, float], set[tuple[float, float]]]  # places, px, by the square (column, row) that holds them
+Ends = list[tuple[str, Squares, set[int]]]
+"""Exits, their switches and the start: a name, the places, and the kinds that are odd there."""
 
-
-def _door_of(world: World, spec: ObjectSpec) -> Object:
-    """Make the door of a well-formed record as the game does."""
-    door = Object()
-    door.kind, (door.x, door.y) = kinds.DOOR, spec.values[:2]
-    create_door(world, door, spec.values)
-    grid_remove(world, door)
-    return door
-
-
-def edges_of(door: Object) -> tuple[int, int]:
-    """The two edge indices that a door writes; 0 for one that does not exist (objects.md §8.6)."""
-    return door.edge_1, door.edge_2
-
-
-class Ground:
-    """The tiles and edges of a level, its doors, and the cells that the ninja's centre could reach.
-
-    Every cell that is not full can be passed, across every side that no face closes; jumps are not considered. A locked
-    door opens once its switch can be touched; automatic and trap doors never stop the fill. ``ends``: places of exits,
-    switches and the start, with the kinds that are odd there.
-    """
-
-    def __init__(self, level: Level) -> None:
-        self.tiles = tile_map(level)
-        world = World()
-        tiles.set_edges(self.tiles, world)
-        self.edges: list[int] = list(world.edges)
-        self.objects = level.objects
-        specs = [spec for spec in self.objects if spec.kind == kinds.DOOR and well_formed(spec)]
-        self.doors = {spec: _door_of(world, spec) for spec in set(specs)}
-        self.doors_on_side = Counter(edges_of(self.doors[spec]) for spec in specs)
-        self.closed_edges = {edge for door in self.doors.values() if door.mechanism != TRAP for edge in edges_of(door)}
-        ninjas = [spec for spec in level.objects if spec.kind == kinds.NINJA]
-        start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
-        exits = [spec.values for spec in self.objects if spec.kind == kinds.EXIT and well_formed(spec)]
-        self.ends = [
-            ("the exit", _in_squares((values[:2] for values in exits), _COVER_PX), _BARRING),
-            ("the exit's switch", _in_squares((values[2:] for values in exits), _COVER_PX), _BARRING),
-            ("the ninja's start", _in_squares([ninjas[-1].values] if start else [], _COVER_PX), _DEADLY),
-        ]
-        # A ninja that starts in a tile may be pushed out on any side, so nothing is certain.
-        self.is_certain = bool(start) and tiles.SHAPE[self.tiles.ids[start]] == tiles.EMPTY
-        self.cells: set[int] = set()
-        if self.is_certain:
-            self._fill(start)
-
-    def is_full(self, cell: int) -> bool:
-        return bool(tiles.SHAPE[self.tiles.ids[cell]] == tiles.FULL)
-
-    def can_touch(self, x: float, y: float, radius: float) -> bool:
-        """Whether a ninja in a reached cell could touch a disc (up to 14 px, or of ``_TOUCHED``); True if uncertain."""
-        near = (cell for cell in _cells_around(cell_at(x, y)) if cell in self.cells)
-        return not self.is_certain or any(_touches(cell, x, y, radius) for cell in near)
-
-    def comes_near(self, x: float, y: float, reach: tuple[float, float]) -> bool:
-        """Whether a ninja in a reached cell could be within ``reach`` px of a point, across and down."""
-        (width, height), half = reach, rules.CELL / 2
-        centres = ((tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell]) for cell in self.cells)
-        return not self.is_certain or any(abs(x - a) < width + half and abs(y - b) < height + half for a, b in centres)
-
-    def is_in_wall(self, x: float, y: float, radius: float) -> bool:
-        """Whether only a fast ninja, which sinks into tiles, could touch a disc. Tests every 2 px, generously."""
-        if not (cell_at(x, y) and solid_at(self.tiles, x, y)):
-            return False
-        reach = radius + rules.RADIUS + _BETWEEN
-        steps = [2.0 * step for step in range(-int(reach / 2), int(reach / 2) + 1)]
-        places = ((x + a, y + b) for a in steps for b in steps if a * a + b * b < reach * reach)
-        return not any(self._fits_at(*place) for place in places)
-
-    def _fits_at(self, x: float, y: float) -> bool:
-        """Whether the ninja's centre could be here with the ninja outside of all tiles."""
-        reached = cell_at(x, y) in self.cells or not self.is_certain
-        return reached and not any(solid_at(self.tiles, x + a, y + b) for a, b in _RIM)
-
-    def _fill(self, start: int) -> None:
-        """Reach cell after cell. A locked door is tested whenever the fill reaches a cell around its switch."""
-        locked = [door for door in self.doors.values() if door.mechanism == LOCKED]
-        waiting: dict[int, list[Object]] = {}
-        for door in locked:
-            waiting.setdefault(cell_at(door.x, door.y), []).append(door)
-        # If doors share a side, one door that is open or opens is enough.
-        closed = {edge for door in locked for edge in edges_of(door)}
-        closed -= {edge for door in self.doors.values() if door.mechanism != LOCKED for edge in edges_of(door)}
-        frontier = [start]
-        self.cells.add(start)
-        while frontier:
-            cell = frontier.pop()
-            touched = (
-                door
-                for place in _cells_around(cell)
-                for door in waiting.get(place, ())
-                if _touches(cell, door.x, door.y, rules.DOOR_SWITCH_RADIUS)
-            )
-            opened = closed.intersection(edge for door in touched for edge in edges_of(door))
-            closed -= opened
-            frontier += [edge // 4 for edge in opened if edge // 4 in self.cells]
-            new = [*self._reachable_neighbours(cell, closed)]
-            self.cells.update(new)
-            frontier += new
-
-    def _reachable_neighbours(self, cell: int, closed: set[int]) -> Iterator[int]:
-        """The neighbours of a cell that can be reached from it and are new."""
-        for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
-            out_edge, in_edge = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
-            if tiles.EXISTS[cell + step] and cell + step not in self.cells and not self.is_full(cell + step):
-                tiles_open = self.edges[out_edge] != rules.SOLID and self.edges[in_edge] != rules.SOLID
-                if tiles_open and out_edge not in closed and in_edge not in closed and self._has_gap(cell, cell + step):
-                    yield cell + step
-
-    def _has_gap(self, cell: int, neighbour: int) -> bool:
-        """Whether the solid faces on both sides of a border leave a gap: two full faces are no edge."""
-        if tiles.EMPTY in (tiles.SHAPE[self.tiles.ids[cell]], tiles.SHAPE[self.tiles.ids[neighbour]]):
-            return True
-        x, y = ((at[cell] + at[neighbour]) / 2 for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
-        dx, dy = ((at[neighbour] - at[cell]) / rules.CELL for at in (tiles.CENTRE_X, tiles.CENTRE_Y))
-        for k in _ALONG:
-            sides = ((x + dy * k + dx * by, y + dx * k + dy * by) for by in (-_BESIDE, _BESIDE))
-            if not any(solid_at(self.tiles, *place) for place in sides):
-                return True
-        return False
-
-
-def _cells_around(cell: int) -> list[int]:
-    return [cell + row + column for row in (-rules.STRIDE, 0, rules.STRIDE) for column in (-1, 0, 1)] if cell else []
-
-
-def _touches(cell: int, x: float, y: float, radius: float) -> bool:
-    dx = max(abs(x - tiles.CENTRE_X[cell]) - rules.CELL / 2, 0.0)
-    dy = max(abs(y - tiles.CENTRE_Y[cell]) - rules.CELL / 2, 0.0)
-    return dx * dx + dy * dy < (radius + rules.RADIUS) ** 2
-
-
-_BETWEEN = sqrt(2.0)  # greatest distance, px, of the ninja from the nearest place that `is_in_wall` tests
-_INNER_RADIUS = rules.RADIUS - _BETWEEN
-_BESIDE = 0.01  # distance of the tested places from a border, on both sides, px
-_ALONG = [k - 11.5 for k in range(24)]
-_RIM = [(0.0, 0.0), *((_INNER_RADIUS * cos(pi * k / 8), _INNER_RADIUS * sin(pi * k / 8)) for k in range(16))]
 _FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
 _BARRING, _DEADLY = _FIXED | {kinds.MINE}, _FIXED | {kinds.DRONE, kinds.FLOOR_GUARD}
 """Kinds that are a mistake over an exit, which drones leave free, or over the start, where mines kill."""
@@ -175,6 +33,32 @@ _NAMES_SHOWN = 3
 _OVER_GOLD = 8.0  # a mine nearer than this, px, covers a piece of gold
 _COVER_PX = 12.5
 """An object nearer than this, px, covers an exit, a switch or the start; a launch pad on their floor is 12 px away."""
+
+_DIRECTIONS = (0, 1, 2, 3)
+_SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # tested points of a piece of gold, across and down, as shares of its radius
+_HIDDEN = 2 / 3  # share of gold in rock from which on nobody sees it: tiles are drawn over it
+_UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
+
+_IN_TILE = {
+    kinds.NINJA: "starts inside a tile",
+    kinds.TURRET: "is inside a tile: what it sees and hits is odd",
+    kinds.MINE: "is inside a tile",
+    kinds.LAUNCH_PAD: "is inside a tile",
+    kinds.LAUNCHER: "is inside a tile: its rockets explode at once",
+}
+
+
+def _around(half: float) -> float:
+    """The radius of a disc that a ninja touches wherever it touches a box, px; it stays in the cells around that."""
+    return sqrt(2.0) * (half + rules.RADIUS) - rules.RADIUS
+
+
+_TOUCHED = {
+    kinds.LAUNCH_PAD: rules.PAD_RADIUS,
+    kinds.BOUNCE_BLOCK: _around(rules.BLOCK_HALF),
+    kinds.ONE_WAY: _around(rules.ONE_WAY_HALF),
+}
+"""Kinds that do nothing where no ninja touches them, with their radius, px. Mines, which decorate, are not named."""
 
 
 def level_warnings(level: Level, says: str = "") -> list[str]:
@@ -195,13 +79,14 @@ def level_findings(level: Level, says: str = "") -> list[Finding]:
     if len(objects) >= CAPACITY:
         return [level_finding("too-many-objects", count=len(objects), most=CAPACITY - 1)]
     ground = Ground(level)
+    ends = _ends(ground)
     odd: dict[Finding, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
     covering = _mines_over_gold(objects)
     for id_, spec in enumerate(objects):
         duplicate = [level_finding("duplicate")] if first.setdefault(spec, id_) != id_ else []
         over = [level_finding("mine-over-gold")] if spec in covering else []
-        for finding in (*oddities(spec, ground), *duplicate, *over):
+        for finding in (*oddities(spec, ground, ends), *duplicate, *over):
             odd.setdefault(finding, []).append(id_)
     of_objects = []
     for finding, ids in odd.items():
@@ -331,13 +216,7 @@ def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
             return
 
 
-_DIRECTIONS = (0, 1, 2, 3)
-_SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # tested points of a piece of gold, across and down, as shares of its radius
-_HIDDEN = 2 / 3  # share of gold in rock from which on nobody sees it: tiles are drawn over it
-_UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
-
-
-def oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+def oddities(spec: ObjectSpec, ground: Ground, ends: Ends) -> Iterator[Finding]:
     """Find the oddities of an object in the level of ``ground``."""
     if not well_formed(spec):
         count, needed = len(spec.values), kinds.VALUE_COUNTS[spec.kind]
@@ -347,17 +226,27 @@ def oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     if any(map(isnan, spec.values)):
         yield level_finding("not-a-number")
     if spec.kind != kinds.DOOR:
-        yield from _place_oddities(spec, ground)
+        yield from _place_oddities(spec, ground, ends)
     if spec.kind in _CHECKS:
         yield from _CHECKS[spec.kind](spec, ground)
 
 
-def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
+def _ends(ground: Ground) -> Ends:
+    exits = [spec.values for spec in ground.objects if spec.kind == kinds.EXIT and well_formed(spec)]
+    starts = [spec.values for spec in ground.objects if spec.kind == kinds.NINJA][-1:] if ground.start else []
+    return [
+        ("the exit", _in_squares((values[:2] for values in exits), _COVER_PX), _BARRING),
+        ("the exit's switch", _in_squares((values[2:] for values in exits), _COVER_PX), _BARRING),
+        ("the ninja's start", _in_squares(starts, _COVER_PX), _DEADLY),
+    ]
+
+
+def _place_oddities(spec: ObjectSpec, ground: Ground, ends: Ends) -> Iterator[Finding]:
     x, y = spec.values[:2]
     if isnan(x) or isnan(y):
         return
     cell = cell_at(x, y)
-    for what, places, barring in ground.ends:
+    for what, places, barring in ends:
         if spec.kind in barring and _is_near((x, y), places, _COVER_PX):
             yield level_finding("covers", what=what)
     if spec.kind == kinds.FLOOR_GUARD:
@@ -371,28 +260,6 @@ def _place_oddities(spec: ObjectSpec, ground: Ground) -> Iterator[Finding]:
         yield level_finding("in-full-tile")
     elif spec.kind in _TOUCHED:
         yield from _untouched(ground, x, y, _TOUCHED[spec.kind])
-
-
-_IN_TILE = {
-    kinds.NINJA: "starts inside a tile",
-    kinds.TURRET: "is inside a tile: what it sees and hits is odd",
-    kinds.MINE: "is inside a tile",
-    kinds.LAUNCH_PAD: "is inside a tile",
-    kinds.LAUNCHER: "is inside a tile: its rockets explode at once",
-}
-
-
-def _around(half: float) -> float:
-    """The radius of a disc that a ninja touches wherever it touches a box, px; it stays in the cells around that."""
-    return sqrt(2.0) * (half + rules.RADIUS) - rules.RADIUS
-
-
-_TOUCHED = {
-    kinds.LAUNCH_PAD: rules.PAD_RADIUS,
-    kinds.BOUNCE_BLOCK: _around(rules.BLOCK_HALF),
-    kinds.ONE_WAY: _around(rules.ONE_WAY_HALF),
-}
-"""Kinds that do nothing where no ninja touches them, with their radius, px. Mines, which decorate, are not named."""
 
 
 def _is_deep(ground: Ground, x: float, y: float) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.levels.findings import PackFinding, pack_finding
-from ninja_game.levels.lint import Ground
+from ninja_game.levels.ground import Ground
 from ninja_game.runs.trace import RunTrace, trace_level
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at

@@ -26,11 +26,8 @@ _Text = tuple[str, int, LevelMessage | None]
 _NOTHING: _Text = "", 0, None
 
 _MOMENT_OF_EVENT = {
-    EXIT_OPENED: Moment.SWITCH,
-    GOLD_TAKEN: Moment.GOLD,
-    LOCK_OPENED: Moment.LOCK,
-    TRAP_CLOSED: Moment.TRAP,
-}
+    EXIT_OPENED: Moment.SWITCH, GOLD_TAKEN: Moment.GOLD, LOCK_OPENED: Moment.LOCK, TRAP_CLOSED: Moment.TRAP,
+}  # fmt: skip
 
 
 class _Column(IntEnum):
@@ -57,7 +54,7 @@ class MessageQueue:
 
     - "replaces": it is shown at once. A place or a time that it replaces unread comes again, another text does not.
     - "queues": it comes after the shown text, or after an important one of its own tick.
-    - "waits": the same is asked in the next tick, if the ninja is there still.
+    - "waits": it is asked again in the next tick; a place only if the ninja is there still.
     - [1]: not in a tick in which something happened.
 
     A text is read after its ``read_ticks``, in one try or several. A place or a time comes again in the next try if it

@@ -12,7 +12,8 @@ from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels import lint
 from ninja_game.levels.findings import DESIGN_WORDINGS, LEVEL_WORDINGS, PACK_WORDINGS, RUN_WORDINGS, Wording
-from ninja_game.levels.lint import Ground, level_findings, level_warnings, object_name
+from ninja_game.levels.ground import Ground
+from ninja_game.levels.lint import level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ROWS, TILES, Level, ObjectSpec
 from ninja_game.simulation import Simulation

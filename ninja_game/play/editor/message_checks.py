@@ -10,7 +10,8 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.message_rows import EditedMessages, Field, MessageRow
 from ninja_game.formats.messages import LevelMessage, arrow_targets, parse_messages
 from ninja_game.levels.findings import LEVEL_WORDINGS, Finding
-from ninja_game.levels.lint import Ground, unseen_messages
+from ninja_game.levels.ground import Ground
+from ninja_game.levels.lint import unseen_messages
 from ninja_game.play.level.level_play import things_at_start
 from ninja_game.runs.message_appearances import Appearance, appearances, late_text, short_text
 from ninja_game.runtime import NewestJob
