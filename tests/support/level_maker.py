@@ -1,5 +1,7 @@
 """Somebody who makes a level in the editor, with mouse, keys and pad."""
 
+from dataclasses import replace
+
 import pygame
 
 from ninja_game.editor.draft import Draft
@@ -9,6 +11,7 @@ from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.screen import BaseScreen
+from ninja_game.sim.grid import middle_of
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.menu_driver import MenuDriver
@@ -54,6 +57,23 @@ class Maker(MenuDriver):
         """Where a point of the level is seen."""
         left, top, width, _ = LAYOUT.level
         return left + x * width / 792, top + y * width / 792
+
+    def at_cell(self, column: int, row: int) -> tuple[float, float]:
+        """Where the middle of a cell is seen."""
+        return self.at(*middle_of((column, row)))
+
+    def put(self, draft: Draft) -> None:
+        """Have this level in the editor."""
+        self.editor.session.tools.history.change(draft)
+        self.frames()
+
+    def put_says(self, says: str) -> None:
+        """Have the level say this to its player."""
+        self.put(replace(self.draft, says=says))
+
+    def put_more(self, *objects: ObjectSpec) -> None:
+        """Have these objects in the level, too."""
+        self.put(with_stamp(self.draft, Stamp({}, objects)))
 
     def drag(self, *places: tuple[float, float], button: int = 1) -> None:
         for number, place in enumerate(places):

@@ -25,7 +25,7 @@ from ninja_game.levels.episodes import GAME, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
-from ninja_game.play.editor.messages import MessagesScreen
+from ninja_game.play.editor.messages_screen import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.session import EditorSession
