@@ -70,6 +70,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     session, levels = room.editor.session, tmp_path / "levels"
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
+    room.wait(lambda: at_once, "the first search")
     assert session.certifier.text.startswith(("Loading the solver: ", "Compiling the solver, "))
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("A room")

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from pathlib import Path
+from queue import Queue
 from time import thread_time
 from unittest.mock import patch
 
@@ -17,11 +18,12 @@ from ninja_game.editor.examination import Examined
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.palette import FAMILIES, OBJECT_TYPES, SNAPS, TILE_KEYS, object_of_type, placed
-from ninja_game.editor.playtests import with_ninja_at
+from ninja_game.editor.playtests import PathPoints, with_ninja_at
 from ninja_game.editor.reach import LANDED_TICK, SQUARE, STARTS, Reach
 from ninja_game.editor.solver import Certification
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, points
 from ninja_game.editor.stamp import Selection, Stamp, chosen_in, copied, with_stamp
+from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.pack.pack import Pack
@@ -34,6 +36,7 @@ from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.panels import Findings
 from ninja_game.play.editor.part import ToolButton
 from ninja_game.play.editor.playtest import PlaytestScreen
+from ninja_game.play.editor.pointer_searches import PointerSearches
 from ninja_game.play.editor.properties import FIRST_STEPS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import GRIDS, sign_mark
@@ -46,6 +49,7 @@ from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, obstacle
+from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import DRONE, EXIT, GOLD, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
@@ -1001,6 +1005,29 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     session.tools.history.change(with_stamp(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
     session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY_PART)}))
     room.wait(lambda: session.at_pointer.drone_round, "the round of the drone that is selected")
+
+
+def test_the_round_of_a_drone_where_it_was_before_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    started, answers = Queue[Point](), Queue[PathPoints]()
+
+    def slow_round(level: Level) -> PathPoints:
+        started.put(level.objects[1].values[:2])
+        return answers.get(timeout=LONGEST)
+
+    monkeypatch.setattr("ninja_game.play.editor.pointer_searches.round_of", slow_round)
+    tools, searches = EditorTools(ROOM), PointerSearches()
+    tools.pick_up(object_of_type("zap drone"))
+    tools.move(204, 204)
+    searches.follow(tools)
+    assert started.get(timeout=LONGEST) == (204.0, 204.0)
+    tools.move(252, 204)
+    searches.follow(tools)
+    answers.put(((1.0, 1.0),))
+    assert started.get(timeout=LONGEST) == (252.0, 204.0)
+    assert not searches.drone_round
+    answers.put(((2.0, 2.0),))
+    searches.rounds.finish(LONGEST)
+    assert searches.drone_round == ((2.0, 2.0),)
 
 
 def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_path: Path) -> None:
