@@ -205,7 +205,7 @@ class Game:
             else:
                 place = kind, key if kind != "replay" else str(number)
                 self.numbers[place] = max(number, self.numbers.get(place, 0))
-        writing._tidied.clear()  # noqa: SLF001 - as a new process
+        writing.tidied.clear()  # as a new process
         data = PlayerData(folder)
         bests = data.records.level_bests()
         yield from (f"not opened: {message}" for message in data.messages)

@@ -220,7 +220,7 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
 def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tasks = list[Task]()
     certifier = Certifier(solver := Solver())
-    monkeypatch.setattr(solver.job, "ask", solver._work)
+    monkeypatch.setattr(solver.job, "ask", solver.work)
     monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.search.solve.solve", lambda task, **_: tasks.append(task))
     level = load_levels(root / "levels" / "00-0-first-steps.txt")[0].level
@@ -292,7 +292,7 @@ def test_what_is_stopped_while_it_fails_stays_stopped(monkeypatch: pytest.Monkey
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     certifier.start(ROOM.level)
     with pytest.raises(MemoryError):
-        solver._work(certifier.certification)
+        solver.work(certifier.certification)
     assert (certifier.text, certifier.certification.failed) == ("Stopped", False)
 
 

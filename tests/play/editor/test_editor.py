@@ -49,7 +49,6 @@ from ninja_game.runs.packs import lint
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.task import Progress, obstacle
-from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import DRONE, EXIT, GOLD, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
@@ -164,7 +163,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
 def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -> None:
     tools = room.editor.session.tools
     room.drag((300, 300))
-    before, history = room.draft, list(tools.history._done)
+    before, history = room.draft, list(tools.history.done)
     room.press("f5")
     room.keys.script = [2] * 20
     room.press("space")
@@ -173,7 +172,7 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     room.press("escape")
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
-    assert tools.history._done == history
+    assert tools.history.done == history
     assert len(room.editor.session.playtests.last_route) == 20
     assert room.editor.session.playtests.last_route[0] == (60.0, 542.0)
     room.mouse(*room.at(400, 100), click=False)
@@ -343,7 +342,7 @@ def test_only_what_changed_is_drawn_again_and_it_is_the_same_picture(room: Maker
     room.frames(2)
     mended = room.app.surface.copy()
     view = room.editor.view
-    view._laid_out = ()
+    view.repaint()
     room.app.stack.redraw_all()
     room.app.draw()
     whole = room.app.surface
@@ -528,15 +527,15 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     before = room.app.surface.copy()
     room.press("y")
     status = next(each for each in room.editor.parts if isinstance(each, StatusLine))
-    assert status._text().startswith("Point at a place in the level")
+    assert status.text().startswith("Point at a place in the level")
     room.mouse(*room.at(396, 541), click=False)
-    assert at.reach or "compiled" in status._text()
+    assert at.reach or "compiled" in status.text()
     standing = shown(396, 541)
-    assert status._text().startswith("In 1 s, standing, the ninja can be where it is shaded, ")
+    assert status.text().startswith("In 1 s, standing, the ninja can be where it is shaded, ")
     room.mouse(*LAYOUT.file[:2], click=False)
     room.frames()
     away = room.app.surface.copy()
-    assert not status._text().startswith("In 1 s, "), "the pointer has gone, and what is reached from it"
+    assert not status.text().startswith("In 1 s, "), "the pointer has gone, and what is reached from it"
     standing = shown(396, 541)
     left, right = edges(standing)
     assert abs((396 - left) - (right - 396)) <= 2 * SQUARE, "standing, both sides are alike"
@@ -562,7 +561,7 @@ def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> Non
     assert 440 < edge[0][0] < 474, "the last place to jump from is at the edge"
     room.press("y", "y")
     assert at.reach is None
-    assert "Reached" not in status._text()
+    assert "Reached" not in status.text()
 
 
 def test_arrows_move_what_the_mouse_has_selected_and_a_key_says_what_select_takes(room: Maker) -> None:
@@ -972,7 +971,7 @@ def test_all_rows_about_several_drones_have_room_in_their_panel(room: Maker) -> 
     assert max(each.area[1] + each.area[3] for each in widgets) <= y + h - 7
     with noted() as layouts:
         layouts.append(Layout())
-        room.app._lay_out()
+        room.app.lay_out()
         room.app.draw()
     assert not layouts[0].shortened
 
@@ -1008,7 +1007,7 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
 
 
 def test_the_round_of_a_drone_where_it_was_before_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    started, answers = Queue[Point](), Queue[PathPoints]()
+    started, answers = Queue[tuple[float, ...]](), Queue[PathPoints]()
 
     def slow_round(level: Level) -> PathPoints:
         started.put(level.objects[1].values[:2])
@@ -1213,7 +1212,7 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     )
     room.frames(2)
     part = next(each for each in room.editor.parts if isinstance(each, Findings))
-    assert [number for number, _ in part._lines] == [0, 0, 0, 1]
+    assert [number for number, _ in part.lines] == [0, 0, 0, 1]
     x, y, w, h = part.list.row_area(2)
     room.mouse(x + w / 2, y + h / 2)
     assert room.editor.view.hint == "Problem 1 of 2: the list says how to fix it"
