@@ -89,12 +89,12 @@ class History(Generic[Draft]):
 
     def __init__(self, draft: Draft, done: Sequence[Draft] = (), undone: Sequence[Draft] = ()) -> None:
         self.draft = draft
-        self._done, self._undone = [*done], [*undone]
+        self.done, self._undone = [*done], [*undone]
         self._began: Draft | None = None
 
     @property
     def can_undo(self) -> bool:
-        return bool(self._done) or self._began not in (None, self.draft)
+        return bool(self.done) or self._began not in (None, self.draft)
 
     @property
     def can_redo(self) -> bool:
@@ -103,10 +103,10 @@ class History(Generic[Draft]):
     def steps(self, most: int) -> tuple[list[Draft], list[Draft]]:
         """The drafts to which undo and redo lead, the next one last, at most this many of each."""
         began = [] if self._began in (None, self.draft) else [self.began]
-        return [*self._done, *began][-most:], self._undone[-most:]
+        return [*self.done, *began][-most:], self._undone[-most:]
 
     def copy(self) -> History[Draft]:
-        return History(self.draft, *self.steps(len(self._done) + len(self._undone) + 1))
+        return History(self.draft, *self.steps(len(self.done) + len(self._undone) + 1))
 
     @property
     def began(self) -> Draft:
@@ -134,14 +134,14 @@ class History(Generic[Draft]):
     def amend(self, change: Callable[[Draft], Draft]) -> None:
         """Change the draft, and in the same way all that undo and redo lead to; steps that do nothing then go."""
         self.draft = change(self.draft)
-        for steps in (self._done, self._undone):
+        for steps in (self.done, self._undone):
             drafts = [*map(change, steps), self.draft]
             steps[:] = [draft for draft, following in pairwise(drafts) if draft != following]
 
     def end(self) -> None:
         began, self._began = self._began, None
         if began not in (None, self.draft):
-            self._done.append(began)
+            self.done.append(began)
             self._undone.clear()
 
     def abandon(self) -> None:
@@ -150,11 +150,11 @@ class History(Generic[Draft]):
 
     def undo(self) -> bool:
         """Take the last edit back; whether there was one."""
-        return self._step(self._done, self._undone)
+        return self._step(self.done, self._undone)
 
     def redo(self) -> bool:
         """Redo the edit that was undone last; whether there was one."""
-        return self._step(self._undone, self._done)
+        return self._step(self._undone, self.done)
 
     def _step(self, source: list[Draft], target: list[Draft]) -> bool:
         self.end()

@@ -63,7 +63,7 @@ class _ProcessState:
     short_work: int = 0  #: work of the runs so far that were short enough for the plain memory; at most PLAIN_WORK
 
 
-_PROCESS = _ProcessState()
+PROCESS = _ProcessState()
 
 _RUN_KERNELS = {
     False: (load_world, run_world, step_world, observe_object, trace_world, kill_ninja),
@@ -79,7 +79,7 @@ class MemoryUnavailableError(NinjaGameError):
 def compiled_available() -> bool:
     """Whether Numba is installed, with its compiler on. Without it everything works on the plain memory."""
     return (
-        not _PROCESS.failures
+        not PROCESS.failures
         and find_spec("numba") is not None
         and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
     )
@@ -96,7 +96,7 @@ def choose_memory(memory: str) -> MemoryName:
         if not compiled_available():
             needs = f"the compiled memory needs Numba; {install_hint('fast')}, unset NUMBA_DISABLE_JIT"
             raise MemoryUnavailableError(
-                f"{_PROCESS.failures[0] if _PROCESS.failures else needs}, or use the plain memory"
+                f"{PROCESS.failures[0] if PROCESS.failures else needs}, or use the plain memory"
             )
         return "compiled"
     if memory == "plain":
@@ -137,16 +137,16 @@ def open_worlds(
 
 def prefers_plain() -> bool:
     """Whether a run begins on the plain memory even if it is much work: its kernels are not compiled yet."""
-    return _has_choice("auto", checked=False) and not _kernels_ready(checked=False)
+    return _has_choice("auto", checked=False) and not kernels_ready(checked=False)
 
 
 def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
     """Count a run that begins now, or let a process compile its missing kernels; whether it is on the plain memory."""
     if not _has_choice(memory, checked=checked):
         return False
-    little = _PROCESS.short_work + work <= PLAIN_WORK
+    little = PROCESS.short_work + work <= PLAIN_WORK
     missing = warm_up(checked=checked)
-    _PROCESS.short_work += work if little and not missing else 0
+    PROCESS.short_work += work if little and not missing else 0
     return little or missing
 
 
@@ -156,24 +156,24 @@ def _has_choice(memory: str, *, checked: bool) -> bool:
         return False
     from ninja_game.backend import background_compiler
 
-    return background_compiler.is_enabled() and (load_world, checked or _ALL_CHECKED) not in _PROCESS.kernels
+    return background_compiler.is_enabled() and (load_world, checked or _ALL_CHECKED) not in PROCESS.kernels
 
 
 def warm_up(*, checked: bool = False) -> bool:
     """Let a background process compile the kernels of a run; gives whether they were not compiled yet."""
-    if missing := compiled_available() and not _kernels_ready(checked=checked):
+    if missing := compiled_available() and not kernels_ready(checked=checked):
         from ninja_game.backend import background_compiler
 
         background_compiler.start()
     return missing
 
 
-def _kernels_ready(*, checked: bool) -> bool:
+def kernels_ready(*, checked: bool) -> bool:
     """Whether the kernels of a run have been made, or are in the cache."""
     from ninja_game.backend.kernel_cache import are_cached
 
     checked = _ALL_CHECKED or checked
-    missing = [entry for entry in _RUN_KERNELS[checked] if (entry, checked) not in _PROCESS.kernels]
+    missing = [entry for entry in _RUN_KERNELS[checked] if (entry, checked) not in PROCESS.kernels]
     return not missing or are_cached(missing, checked)
 
 
@@ -189,7 +189,7 @@ def switch_to_compiled(worlds: Worlds, memory: str | Plan, ticks: int) -> Worlds
         return worlds
     from ninja_game.backend import background_compiler
 
-    compiling = not _kernels_ready(checked=plan.checked) and background_compiler.is_compiling()
+    compiling = not kernels_ready(checked=plan.checked) and background_compiler.is_compiling()
     if compiling or _usable_memory("auto", checked=plan.checked) == "plain":
         return worlds
     from ninja_game.backend.compiled import compiled_copy
@@ -237,11 +237,11 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
     compiled worlds compute something else.
     """
     checked = checked or _ALL_CHECKED
-    kernel: Callable[..., R] | None = _PROCESS.kernels.get((entry, checked))
+    kernel: Callable[..., R] | None = PROCESS.kernels.get((entry, checked))
     if kernel is None:
         with _LOCK:
             make = _compiler(checked)
-            if entry is load_world and (entry, checked) not in _PROCESS.kernels:
+            if entry is load_world and (entry, checked) not in PROCESS.kernels:
                 from ninja_game.backend.compiled import CompiledWorlds
 
                 try:
@@ -250,13 +250,13 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
                     raise
                 except Exception as error:
                     raise _unusable("compile the rules", error) from error
-            kernel = _PROCESS.kernels[entry, checked] = make(entry)
+            kernel = PROCESS.kernels[entry, checked] = make(entry)
     return kernel
 
 
 def has_compiled_twin(entry: Callable[..., Any]) -> bool:
     """Whether this process has made the compiled twin of a kernel."""
-    return (entry, _ALL_CHECKED) in _PROCESS.kernels
+    return (entry, _ALL_CHECKED) in PROCESS.kernels
 
 
 def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
@@ -282,5 +282,5 @@ def _compiler(checked: bool) -> Compiler:
 
 def _unusable(what: str, error: Exception) -> MemoryUnavailableError:
     """Make the error for a failure of Numba; the compiled memory is not tried again."""
-    _PROCESS.failures.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
-    return MemoryUnavailableError(f"{_PROCESS.failures[-1]}, or use the plain memory")
+    PROCESS.failures.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
+    return MemoryUnavailableError(f"{PROCESS.failures[-1]}, or use the plain memory")

@@ -319,7 +319,7 @@ class _Compared:
             self._courses.add(number, self._runs[number].tick, partial(self._course, self._runs[number]))
         self._known = len(self._runs)
         course = self._course(run)
-        near = _near_to_another(run.player, course, self._courses, [run.player for run in self._runs], self._earlier)
+        near = near_to_another(run.player, course, self._courses, [run.player for run in self._runs], self._earlier)
         like = Likeness("", "", earlier=False, by_inputs=False)
         if near:
             number, other = near.numbers[0], self._runs[near.numbers[0]]
@@ -335,7 +335,7 @@ class _Compared:
         return self._last[1]
 
 
-def _near_to_another(
+def near_to_another(
     player: str, course: Course, earlier: Courses, players: Sequence[str], until_moment: int
 ) -> Near | None:
     """The nearest runs by other players, if there are some.

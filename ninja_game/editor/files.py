@@ -155,7 +155,7 @@ class Autosave(RecoveryFile):
 
     def __init__(self, folder: Path, file: Path | None = None) -> None:
         super().__init__(folder / EDITING, AUTOSAVE_SUFFIX, file)
-        self._job: NewestJob[tuple[Source, History[Draft]] | None, None] = NewestJob(self._work)
+        self.job: NewestJob[tuple[Source, History[Draft]] | None, None] = NewestJob(self._work)
         self._kept: Draft | None = None
         self._asked_at = 0.0
 
@@ -163,17 +163,17 @@ class Autosave(RecoveryFile):
         """Save the draft, with its history, if it has changed and it is time; one equal to its file needs none."""
         draft = history.draft
         draft_now = None if draft == source.draft else draft
-        if draft_now is not self._kept and time.monotonic() - self._asked_at >= _SPACING and self._job.is_idle:
+        if draft_now is not self._kept and time.monotonic() - self._asked_at >= _SPACING and self.job.is_idle:
             self._asked_at = time.monotonic()
             self._kept = draft_now
-            self._job.ask((source, history.copy()) if draft_now else None)
+            self.job.ask((source, history.copy()) if draft_now else None)
 
     def flush(self, history: History[Draft], source: Source) -> None:
         """Save the draft now, if it has changed, and wait for the disk."""
-        self._job.finish()
+        self.job.finish()
         self._asked_at = -_SPACING
         self.poll(history, source)
-        self._job.finish()
+        self.job.finish()
 
     def _work(self, job: tuple[Source, History[Draft]] | None) -> None:
         if job is None:
@@ -194,7 +194,7 @@ class Autosave(RecoveryFile):
 
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: keep the autosave for the next editor."""
-        self._job.finish()
+        self.job.finish()
         if not keep:
             self._forget()
         super().close(keep=keep)

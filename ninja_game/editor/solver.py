@@ -109,9 +109,9 @@ class Solver:
         self.stopped: set[Level] = set()
         self.at_work = Certification(end="Stopped")
         self.compiles = False
-        self.job: NewestJob[Certification, None] = NewestJob(self._work, every=True)
+        self.job: NewestJob[Certification, None] = NewestJob(self.work, every=True)
 
-    def _work(self, certification: Certification) -> None:
+    def work(self, certification: Certification) -> None:
         if certification.end or certification.level is None:
             return
         self.at_work = certification

@@ -24,7 +24,7 @@ PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 
 _unfinished: set[Path] = set()  # the temporary files that this process is writing
 
-_tidied: set[Path] = set()  # folders that this process has cleared of killed writers' temporary files
+tidied: set[Path] = set()  # folders that this process has cleared of killed writers' temporary files
 
 
 def write_atomically(
@@ -127,9 +127,9 @@ def remove_leftovers(folder: Path, at: int | None = None) -> None:
 
     ``at``: a handle of it.
     """
-    if folder in _tidied:
+    if folder in tidied:
         return
-    _tidied.add(folder)
+    tidied.add(folder)
     try:
         with os.scandir(folder if at is None else at) as entries:
             parts = [folder / entry.name for entry in entries if entry.name.startswith(PART_PREFIX)]

@@ -24,7 +24,7 @@ from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.generator.packed import AUTHOR, PACKED, read_packed_levels
 
-_FIRST = date(2026, 11, 23)  # the Monday of the first packed level; a week has seven levels of seven difficulties
+FIRST_DAY = date(2026, 11, 23)  # the Monday of the first packed level; a week has seven levels of seven difficulties
 
 _INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
 _MONDAY = 2
@@ -52,7 +52,7 @@ def take_packed(levels: Path, day: date) -> bool:
 
     Raises NinjaGameError or OSError if it cannot be stored.
     """
-    week = (day - _FIRST).days // 7
+    week = (day - FIRST_DAY).days // 7
     # Pages do not have them: they would be a sixth of the download.
     if week < 0 or not (data_folder("assets") / PACKED).exists():
         return False

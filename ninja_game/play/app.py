@@ -97,7 +97,7 @@ class App:
         # In a page, several whole pictures in a row are too slow.
         self.wipes = in_page_or_not(page=False, desktop=pygame.display.get_driver() not in UNSEEN)
         pygame.font.init()
-        self._lay_out()
+        self.lay_out()
 
     @property
     def settings(self) -> Settings:
@@ -120,7 +120,7 @@ class App:
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
-            self._lay_out()
+            self.lay_out()
         self.stack.redraw_all()
         if message:
             self.notify(message)
@@ -157,7 +157,7 @@ class App:
         if text:
             self.notify(text, ms=WARNING_MS)
 
-    def _lay_out(self) -> None:
+    def lay_out(self) -> None:
         self.canvas = Canvas(self.surface.get_size())
         self.theme = Theme(self.palette_in(self.mood), self.canvas, self.settings.text_size)
         self.menu_theme = Theme(self.palette_in(CALM_MOOD), self.canvas, self.settings.text_size)
@@ -170,7 +170,7 @@ class App:
         """Use the palette of this mood."""
         self.mood = mood
         if self.palette_in(mood) is not self.theme.palette:
-            self._lay_out()
+            self.lay_out()
 
     # --- the screens ---
 
@@ -269,7 +269,7 @@ class App:
         if raw.type == pygame.QUIT:
             self.quit()
         elif raw.type in {pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED}:
-            self._lay_out()
+            self.lay_out()
         elif raw.type in {pygame.WINDOWEXPOSED, pygame.WINDOWRESTORED}:
             self.stack.redraw_all()
         event = self.controls.decode(raw)

@@ -97,51 +97,51 @@ class ScreenStack:
     """The open screens. The top one gets the events; ``enter`` and ``leave`` are called as it changes."""
 
     def __init__(self) -> None:
-        self._screens: list[BaseScreen] = []
+        self.screens: list[BaseScreen] = []
 
     def __len__(self) -> int:
-        return len(self._screens)
+        return len(self.screens)
 
     def __contains__(self, screen: BaseScreen) -> bool:
-        return screen in self._screens
+        return screen in self.screens
 
     @property
     def top(self) -> BaseScreen:
         """The screen that gets the events. Raises IndexError if there is none."""
-        return self._screens[-1]
+        return self.screens[-1]
 
     @property
     def below(self) -> BaseScreen | None:
         """The screen below the top one, if any."""
-        return self._screens[-2] if len(self) > 1 else None
+        return self.screens[-2] if len(self) > 1 else None
 
     def push(self, screen: BaseScreen) -> None:
-        if self._screens:
+        if self.screens:
             self.top.leave()
-        self._screens.append(screen)
+        self.screens.append(screen)
         self._uncover()
 
     def pop(self) -> None:
         """Go back to the screen below."""
-        self._screens.pop().leave()
+        self.screens.pop().leave()
         self._uncover()
 
     def replace(self, screen: BaseScreen) -> None:
-        self._screens.pop().leave()
-        self._screens.append(screen)
+        self.screens.pop().leave()
+        self.screens.append(screen)
         self._uncover()
 
     def clear(self) -> None:
-        while self._screens:
-            self._screens.pop().leave()
+        while self.screens:
+            self.screens.pop().leave()
 
     def _uncover(self) -> None:
         self.redraw_all()
-        if self._screens:
+        if self.screens:
             self.top.enter()
 
     def redraw_all(self) -> None:
-        for screen in self._screens:
+        for screen in self.screens:
             screen.redraw = True
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
@@ -166,5 +166,5 @@ class ScreenStack:
 
     def _from_last(self, covers: Callable[[BaseScreen], bool]) -> list[BaseScreen]:
         """The screens from the last one that covers those below it, or from the first."""
-        ends = [index for index, screen in enumerate(self._screens) if covers(screen)]
-        return self._screens[max(ends, default=0) :]
+        ends = [index for index, screen in enumerate(self.screens) if covers(screen)]
+        return self.screens[max(ends, default=0) :]

@@ -174,24 +174,24 @@ class Wipe:
     """A transition, or none. It only covers: the new screen already takes keys and lets time pass."""
 
     def __init__(self) -> None:
-        self._before: pygame.Surface | None = None
+        self.before: pygame.Surface | None = None
         self._left = 0
 
     def begin(self, surface: pygame.Surface) -> None:
-        self._before, self._left = surface.copy(), WIPE_MS
+        self.before, self._left = surface.copy(), WIPE_MS
 
     def update(self, real_ms: int) -> bool:
         """Let time pass; whether it was going on."""
-        going_on, self._left = self._before is not None, self._left - real_ms
+        going_on, self._left = self.before is not None, self._left - real_ms
         if self._left <= 0:
-            self._before = None
+            self.before = None
         return going_on
 
     def draw(self, surface: pygame.Surface, theme: Theme) -> None:
-        if self._before is None:
+        if self.before is None:
             return
         width, height = surface.get_size()
         share = self._left / WIPE_MS
         left = width - round(width * share * share)
-        surface.blit(self._before, (left, 0), (left, 0, width - left, height))
+        surface.blit(self.before, (left, 0), (left, 0, width - left, height))
         surface.fill(theme.palette.accent, (left, 0, theme.canvas.px(_EDGE), height))

@@ -217,7 +217,7 @@ _COMPILING = Lock()
 
 def is_solver_compiled() -> bool:
     """Whether this machine has machine code of the solver, so that it only has to be loaded."""
-    return bool(_compile_once.cache_info().currsize) or are_cached((expand, local_search), checked=False)
+    return bool(compile_once.cache_info().currsize) or are_cached((expand, local_search), checked=False)
 
 
 def compile_solver() -> None:
@@ -226,11 +226,11 @@ def compile_solver() -> None:
     This happens once in a process; a second thread waits for the first. Raises MemoryUnavailableError without Numba.
     """
     with _COMPILING:
-        _compile_once()
+        compile_once()
 
 
 @cache
-def _compile_once() -> None:
+def compile_once() -> None:
     for gold in (0, -1):
         _Job(SharedProgress(Task(parse_level_string(SMALL_LEVEL), gold=gold, work=30_000), None), 0).compile()
 

@@ -75,7 +75,7 @@ class Timeline:
         self.level, self.body = level, body
         self._worlds = open_worlds(memory, level, box=is_box(body), at_once=True)
         self.asked_memory = memory
-        self._initial = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
+        self.initial = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
         self.watched: tuple[int, ...] = ()
         self._states: SaveStates[Any] = SaveStates(0, self._worlds.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
@@ -216,18 +216,18 @@ class Timeline:
     @property
     def objects(self) -> list[tuple[int, int, float, float]]:
         """Id, kind, x and y (px, at the start) of every object that can be watched."""
-        seen = enumerate(self._initial)
+        seen = enumerate(self.initial)
         return [(id_, kind, x, y) for id_, (kind, x, y, _) in seen if KIND_OF[kind].traced]
 
     def at_start(self, id_: float) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for an unknown one."""
-        if not 0 <= id_ < len(self._initial) or id_ != int(id_) or not KIND_OF[self._initial[int(id_)][0]].traced:
+        if not 0 <= id_ < len(self.initial) or id_ != int(id_) or not KIND_OF[self.initial[int(id_)][0]].traced:
             raise no_object(id_)
-        return self._initial[int(id_)]
+        return self.initial[int(id_)]
 
     @property
     def exits(self) -> list[tuple[float, float]]:
-        return [(x, y) for kind, x, y, _ in self._initial if kind == EXIT]
+        return [(x, y) for kind, x, y, _ in self.initial if kind == EXIT]
 
     @property
     def positions(self) -> NDArray[np.float64]:

@@ -79,7 +79,7 @@ class OpeningScreen(Screen):
         self._waited_ms = 0
         self._shown = "", ""
         before_compiling.append(self._note_compiling)
-        self._thread = run_in_background(lambda: prepare_rules(run), self._note_problem)
+        self.thread = run_in_background(lambda: prepare_rules(run), self._note_problem)
 
     def _note_compiling(self) -> None:
         self._compiles = True
@@ -105,7 +105,7 @@ class OpeningScreen(Screen):
 
     def update(self, real_ms: int) -> None:
         self._waited_ms += real_ms
-        if self._thread.is_alive() or not self._shown[0]:
+        if self.thread.is_alive() or not self._shown[0]:
             return
         try:
             screen = self._make()

@@ -101,7 +101,7 @@ class SpanResults:
         """
         editor, end = self.editor, self.task.first + result.ticks
         behind = self.first_behind
-        contributions = self._contributions(result)
+        contributions = self.contributions(result)
         old = behind is None
         track = self._searched_track if old else editor.track
         if behind is None:
@@ -147,7 +147,7 @@ class SpanResults:
 
         return f"like {min(self._others, key=apart).name}"
 
-    def _contributions(self, result: SpanResult) -> Contributions:
+    def contributions(self, result: SpanResult) -> Contributions:
         """The contributions to a result: the search, and the authors whose routes may be in it."""
         equal = self._equal_run(result)
         if equal is not None:

@@ -46,9 +46,9 @@ class TextEntry(Widget):
         self.edited = EditedText(text, longest, most_lines)
         if proposed:
             self.edited.select_all()
-        self._first = 0
-        self._stops: list[float] = [0.0]
-        self._rows = [(0, self._stops)]
+        self.first_shown = 0
+        self.stops: list[float] = [0.0]
+        self._rows = [(0, self.stops)]
         self._top, self._upper, self._high = 0, 0.0, 1.0
         self._clicks, self._clicked = 0, (-DOUBLE_MS, 0.0)
 
@@ -112,7 +112,7 @@ class TextEntry(Widget):
         if self._clicks == 1:
             self.edited.go(place, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
         elif self._clicks == 2:
-            self.edited.select_word(self._first + max(0, bisect_right(self._stops, x) - 1))
+            self.edited.select_word(self.first_shown + max(0, bisect_right(self.stops, x) - 1))
         else:
             self.edited.select_all()
         return True
@@ -125,16 +125,16 @@ class TextEntry(Widget):
 
     def _to_row(self, y: float) -> None:
         row = self._top + int((y - self._upper) // self._high)
-        self._first, self._stops = self._rows[min(max(0, row), len(self._rows) - 1)]
+        self.first_shown, self.stops = self._rows[min(max(0, row), len(self._rows) - 1)]
 
     def _place_at(self, x: float) -> int:
         """The place between two characters that is nearest to a point; beyond the edges the next hidden one."""
-        stops = self._stops
+        stops = self.stops
         if x < stops[0] - 1:
-            return self._first - 1
+            return self.first_shown - 1
         if x > stops[-1] + PAD:
-            return self._first + len(stops)
-        return self._first + min(range(len(stops)), key=lambda k: abs(stops[k] - x))
+            return self.first_shown + len(stops)
+        return self.first_shown + min(range(len(stops)), key=lambda k: abs(stops[k] - x))
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         self.draw_base(surface, theme, focused=focused)
@@ -162,7 +162,7 @@ class TextEntry(Widget):
         """Measure the lines; the height of each, px, and how many have room."""
         self._scroll(theme, room)
         self._measure(theme, left, room)
-        self._rows = [(self._first, self._stops)]
+        self._rows = [(self.first_shown, self.stops)]
         return TEXT_SIZE + 6.0, 1
 
     @property
@@ -171,21 +171,21 @@ class TextEntry(Widget):
 
     def _scroll(self, theme: Theme, room: float) -> None:
         text, cursor = self.text, self.edited.cursor
-        self._first = min(self._first, cursor)
-        while theme.width(text[self._first : cursor], TEXT_SIZE) > room:
-            self._first += 1
-        while self._first > 0 and theme.width(text[self._first - 1 :], TEXT_SIZE) <= room:
-            self._first -= 1
+        self.first_shown = min(self.first_shown, cursor)
+        while theme.width(text[self.first_shown : cursor], TEXT_SIZE) > room:
+            self.first_shown += 1
+        while self.first_shown > 0 and theme.width(text[self.first_shown - 1 :], TEXT_SIZE) <= room:
+            self.first_shown -= 1
 
     def _measure(self, theme: Theme, left: float, room: float) -> str:
-        """The visible part; ``_stops`` gets the places between its characters."""
-        self._stops = [left]
-        for last in range(self._first + 1, len(self.text) + 1):
-            width = theme.width(self.text[self._first : last].rstrip("\n"), TEXT_SIZE)
+        """The visible part; ``stops`` gets the places between its characters."""
+        self.stops = [left]
+        for last in range(self.first_shown + 1, len(self.text) + 1):
+            width = theme.width(self.text[self.first_shown : last].rstrip("\n"), TEXT_SIZE)
             if width > room:
                 break
-            self._stops.append(left + width)
-        return self.text[self._first : self._first + len(self._stops) - 1]
+            self.stops.append(left + width)
+        return self.text[self.first_shown : self.first_shown + len(self.stops) - 1]
 
 
 class TextArea(TextEntry):
@@ -215,19 +215,19 @@ class TextArea(TextEntry):
         return max(0, len(stops) - 1 - (end < len(self.text) or self.text[first:end].endswith("\n")))
 
     def _place_at(self, x: float) -> int:
-        places = range(self._last(self._first, self._stops) + 1)
-        return self._first + min(places, key=lambda k: abs(self._stops[k] - x))
+        places = range(self._last(self.first_shown, self.stops) + 1)
+        return self.first_shown + min(places, key=lambda k: abs(self.stops[k] - x))
 
     def _lay_out(self, theme: Theme, left: float, room: float) -> tuple[float, int]:
-        self._rows, self._first = [], 0
-        while self._first < len(self.text) + (self.text[-1:] in ("", "\n")):
+        self._rows, self.first_shown = [], 0
+        while self.first_shown < len(self.text) + (self.text[-1:] in ("", "\n")):
             shown = self._measure(theme, left, room)
             if "\n" in shown:
-                self._stops = self._stops[: shown.index("\n") + 2]
-            elif self._first + len(shown) < len(self.text) and " " in shown:
-                self._stops = self._stops[: shown.rindex(" ") + 2]
-            self._rows.append((self._first, self._stops))
-            self._first += max(1, len(self._stops) - 1)
+                self.stops = self.stops[: shown.index("\n") + 2]
+            elif self.first_shown + len(shown) < len(self.text) and " " in shown:
+                self.stops = self.stops[: shown.rindex(" ") + 2]
+            self._rows.append((self.first_shown, self.stops))
+            self.first_shown += max(1, len(self.stops) - 1)
         height = TEXT_LINE * theme.scales[0]
         return height, max(1, int((self.area[3] - 4) // height))
 

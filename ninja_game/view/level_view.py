@@ -111,7 +111,7 @@ class LevelView:
         self.object_animation = ObjectAnimation(simulation.world)
         self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
         self.ragdoll: Ragdoll | None = None
-        self._shake = 0.0
+        self.shake = 0.0
         self._won = self._door = 0
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
@@ -146,9 +146,9 @@ class LevelView:
         self.ninja_animation.reset(world)
         self.effects.reset()
         self.ragdoll = None
-        self._shake = 0.0
+        self.shake = 0.0
         self._won = 0
-        self._mended += self._backdrop.reset(world, self.object_animation)
+        self._mended += self.backdrop.reset(world, self.object_animation)
         for ghost in self.ghosts:
             ghost.on_seek(world.tick)
         if world.ninja.state == DEAD:
@@ -162,12 +162,12 @@ class LevelView:
 
     def _follow_blasts(self, world: World) -> None:
         """Explosions shake the picture, the more the nearer they are to the ninja."""
-        self._shake *= SHAKE_KEPT
+        self.shake *= SHAKE_KEPT
         options = self.context.settings
         for event in world.events[: world.event_count]:
             if event.kind in (MINE_EXPLODED, ROCKET_EXPLODED) and not options.reduced_motion:
                 far = hypot(event.x - world.ninja.x, event.y - world.ninja.y)
-                self._shake = max(self._shake, SHAKE * options.shake / 100 * max(0.0, 1 - far / SHAKE_REACH))
+                self.shake = max(self.shake, SHAKE * options.shake / 100 * max(0.0, 1 - far / SHAKE_REACH))
 
     def _follow_win(self, world: World) -> None:
         """The ninja dances before its exit, steps into it, and the exit closes: only in the picture."""
@@ -218,8 +218,8 @@ class LevelView:
         palette = self.context.theme.palette
         book = shared_book(self.canvas.scale, palette.base)
         self.target = DrawTarget(self.canvas, palette.base, book)
-        self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
-        self._backdrop.reset(self.simulation.world, self.object_animation)
+        self.backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
+        self.backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
         self._mended: list[pygame.Rect] = []
         self._whole = True
@@ -241,7 +241,7 @@ class LevelView:
             self._layout()
         if not self.context.settings.smooth:
             fraction = 1.0
-        shaken = self._shake > 0.25
+        shaken = self.shake > 0.25
         whole = whole or self._whole or shaken
         # A shaken picture is offset: every px changes in the next one.
         self._whole = shaken
@@ -261,7 +261,7 @@ class LevelView:
 
     def _shift(self, *, shaken: bool) -> None:
         """Offset all drawing on the stage while the picture shakes."""
-        turn, reach = 2.4 * self.effects.now, self._shake * self.canvas.scale * shaken
+        turn, reach = 2.4 * self.effects.now, self.shake * self.canvas.scale * shaken
         dx, dy = round(reach * cos(turn)), round(reach * sin(turn))
         self._origin = self.canvas.stage.move(dx, dy).topleft
         self.target.canvas = self.canvas
@@ -271,13 +271,13 @@ class LevelView:
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
         """Restore the backdrop under the last moving objects, and where it changed."""
-        origin, stage, picture = self._origin, self.canvas.stage, self._backdrop.picture
-        self._mended += self._backdrop.update(self.simulation.world, self.object_animation, fraction)
+        origin, stage, picture = self._origin, self.canvas.stage, self.backdrop.picture
+        self._mended += self.backdrop.update(self.simulation.world, self.object_animation, fraction)
         mended = [rect.move(origin) for rect in self._mended]
         self._mended.clear()
         if whole:
             if stage != surface.get_rect():
-                surface.fill(self._backdrop.palette.tile)
+                surface.fill(self.backdrop.palette.tile)
             surface.set_clip(stage)
             surface.blit(picture, origin)
             # A shaken picture leaves two edges free, which stay as they are.
@@ -325,7 +325,7 @@ class LevelView:
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:
         """Tiles are in front of all moving objects."""
-        (x, y), backdrop = self._origin, self._backdrop
+        (x, y), backdrop = self._origin, self.backdrop
         for area in backdrop.on_tiles([rect.move(-x, -y) for rect in self.target.covered]):
             backdrop.cover(surface, area, (x, y))
 

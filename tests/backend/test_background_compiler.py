@@ -45,7 +45,7 @@ class Compiler:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
         monkeypatch.setattr(memories, "register_run", lambda memory, *_, **__: memory == "auto")
-        monkeypatch.setattr(memories, "_kernels_ready", self.are_there)
+        monkeypatch.setattr(memories, "kernels_ready", self.are_there)
         monkeypatch.setattr(background_compiler, "is_compiling", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
             monkeypatch.setattr(f"ninja_game.{module}.PLAIN_WORK", 1)
@@ -110,9 +110,9 @@ def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) ->
 def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
     work = tick_cost(run.level) * run.ticks
-    monkeypatch.setattr(memories._PROCESS, "kernels", {})
-    monkeypatch.setattr(memories._PROCESS, "short_work", PLAIN_WORK - 3 * work)
-    monkeypatch.setattr(memories, "_kernels_ready", lambda *, checked: True)
+    monkeypatch.setattr(memories.PROCESS, "kernels", {})
+    monkeypatch.setattr(memories.PROCESS, "short_work", PLAIN_WORK - 3 * work)
+    monkeypatch.setattr(memories, "kernels_ready", lambda *, checked: True)
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
     assert proven_memory("auto", work) == CHECKED_LATER
     short, long = (open_worlds("auto", run.level, box=False, at_once=True, ticks=n * run.ticks) for n in (2, 4))
@@ -168,7 +168,7 @@ def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[tuple[list[
     monkeypatch.setattr(subprocess, "Popen", Started)
     monkeypatch.setattr(Started, "commands", [])
     monkeypatch.setattr(background_compiler, "_STARTED", [])
-    monkeypatch.setattr(memories._PROCESS, "kernels", {})
+    monkeypatch.setattr(memories.PROCESS, "kernels", {})
     for module in ("kernel_cache", "background_compiler"):
         monkeypatch.setattr(f"ninja_game.backend.{module}.code_folder", lambda: tmp_path / "cache")
     monkeypatch.setenv(background_compiler.VARIABLE, "1")
@@ -209,7 +209,7 @@ def test_a_run_that_begins_now_looks_for_its_kernels_once(
     started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[bool] = []
-    monkeypatch.setattr(memories, "_kernels_ready", lambda *, checked: asked.append(checked))
+    monkeypatch.setattr(memories, "kernels_ready", lambda *, checked: asked.append(checked))
     assert memories.register_run("auto", NO_LIMIT)
     assert (asked, len(started)) == ([False], 1)
 

@@ -22,7 +22,7 @@ from tests.support.samples import WALK, WALK_END, running, write_records
 @pytest.fixture
 def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
     """A process that has not judged anything yet."""
-    monkeypatch.setattr(memories._PROCESS, "kernels", {})
+    monkeypatch.setattr(memories.PROCESS, "kernels", {})
     memories._prove_plain.cache_clear()
 
 

@@ -223,7 +223,7 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     autosave.poll(History(source.draft), source)
     assert not (tmp_path / EDITING).exists()
     autosave.poll(History(draft), source)
-    autosave._job.finish()
+    autosave.job.finish()
     assert not autosave.problem
     assert not list(lost_drafts(tmp_path))
     autosave.close(keep=True)
@@ -295,10 +295,10 @@ def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkey
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
     autosave.poll(History(draft), source)
-    autosave._job.finish()
+    autosave.job.finish()
     assert list((tmp_path / EDITING).glob("*.json"))
     autosave.poll(History(draft), save(source, draft, tmp_path / "a.txt"))
-    autosave._job.finish()
+    autosave.job.finish()
     assert not list((tmp_path / EDITING).glob("*.json"))
     autosave.poll(History(draft.with_tiles({(1, 1): 1})), source)
     autosave.close()
@@ -314,7 +314,7 @@ def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp
     blocked.write_text("")
     autosave = Autosave(blocked)
     autosave.poll(History(new_source().draft.with_tiles({(9, 9): 1})), new_source())
-    autosave._job.finish()
+    autosave.job.finish()
     assert "cannot be kept safe" in autosave.problem
     autosave.close()
 

@@ -161,7 +161,7 @@ def test_leftovers_of_killed_writers_are_removed_and_live_ones_stay(tmp_path: Pa
         assert len(list(tmp_path.iterdir())) == 1
         link = tmp_path / f"{writing.PART_PREFIX}link{writing.PART_SUFFIX}"
         link.symlink_to(sys.executable)  # nobody's leftover, and nothing is opened through it
-        writing._tidied.clear()
+        writing.tidied.clear()
         remove_leftovers(tmp_path)
         file.write(b"whole")
     assert {each.name for each in tmp_path.iterdir()} == {"b", link.name}

@@ -147,7 +147,7 @@ def test_what_a_killed_writer_left_is_removed_by_the_next_one(tmp_path: Path) ->
     left = tmp_path / "a" / f"{writing.PART_PREFIX}0{writing.PART_SUFFIX}"
     left.parent.mkdir()
     left.write_text("half")
-    writing._tidied.clear()
+    writing.tidied.clear()
     Tree(tmp_path).write("a/b.txt", "x")
     assert Tree(tmp_path).names("a") == ["b.txt"]
 

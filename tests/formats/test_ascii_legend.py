@@ -13,6 +13,7 @@ from ninja_game.formats.ascii.legend import (
     TILE_CHARS,
     TILE_FAMILIES,
     TILE_OF_CHAR,
+    Symbol,
     legend_text,
     visible_glyphs,
 )
@@ -72,9 +73,8 @@ def test_every_kind_of_object_can_be_drawn() -> None:
     assert {symbol.kind for symbol in SYMBOLS} == set(range(len(KIND_NAMES)))
 
 
-@pytest.mark.parametrize("symbol", [s for s in SYMBOLS if s.values is not None and s.char not in "Xx"])
-def test_a_drawn_object_is_seen_where_it_is_drawn(symbol: object) -> None:
-    drawn = next(s for s in SYMBOLS if s is symbol)
+@pytest.mark.parametrize("drawn", [s for s in SYMBOLS if s.values is not None and s.char not in "Xx"])
+def test_a_drawn_object_is_seen_where_it_is_drawn(drawn: Symbol) -> None:
     rows = ["|" + "." * 31 + "|"] * 22 + ["|" + "." * 6 + drawn.char + "." * 24 + "|"]
     (record,) = parse_ascii_level("ninja-game level 1\n" + "\n".join(rows)).level.objects
     assert record.kind == drawn.kind

@@ -126,7 +126,7 @@ def test_no_corner_hides_a_mine(tmp_path: Path) -> None:
     view.also_covered(pygame.Rect(200, 290, 30, 30))
     view.draw(surface)
     surface.set_clip(None)
-    view._backdrop.cover(surface, pygame.Rect(200, 290, 30, 30), (0, 0))
+    view.backdrop.cover(surface, pygame.Rect(200, 290, 30, 30), (0, 0))
     assert surface.get_at((213, 300)) == mine
     assert mine.r > 2 * mine.b
 
@@ -155,7 +155,7 @@ def test_a_shaken_picture_is_the_still_one_elsewhere_and_its_edges_stay() -> Non
     still, shaken = pygame.Surface((396, 320)), pygame.Surface((396, 320))
     view = LevelView(OffscreenContext(still.size), run, audible=False)
     view.draw(still)
-    view.effects.now, view._shake = 1.0, 9.0
+    view.effects.now, view.shake = 1.0, 9.0
     assert view.draw(shaken) is None
     dx, dy = view._origin[0], view._origin[1] - 10
     assert dx < 0 < dy
@@ -167,6 +167,6 @@ def test_a_shaken_picture_is_the_still_one_elsewhere_and_its_edges_stay() -> Non
         assert pygame.image.tobytes(shaken.subsurface(edge), "RGB") == pygame.image.tobytes(
             still.subsurface(edge), "RGB"
         )
-    view._shake = 0.0
+    view.shake = 0.0
     assert view.draw(shaken) is None
     assert pygame.image.tobytes(shaken, "RGB") == pygame.image.tobytes(still, "RGB")

@@ -110,7 +110,7 @@ def test_a_daily_level_that_cannot_be_made_says_why(
     monkeypatch.setattr("ninja_game.generator.daily.make_daily", raising(why))
     monkeypatch.setattr("ninja_game.play.menus.daily.choose_memory", lambda _: None)
     screen = driver.open("Daily")
-    driver.wait(lambda: screen._maker is None)  # type: ignore[attr-defined]
+    driver.wait(lambda: screen.maker is None)  # type: ignore[attr-defined]
     assert screen.message == f"No level could be made for today: {why}"  # type: ignore[attr-defined]
 
 

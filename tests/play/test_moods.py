@@ -210,10 +210,10 @@ def test_a_level_is_laid_out_once_in_its_mood(app: App) -> None:
     app.push(MainMenu(app))
     app.frame(0)
     screen = in_column(app, 4)
-    backdrop = screen.play.view._backdrop
+    backdrop = screen.play.view.backdrop
     app.push(screen)
     app.frame(0)
-    assert screen.play.view._backdrop is backdrop
+    assert screen.play.view.backdrop is backdrop
     assert backdrop.palette is MOODS[4]
 
 

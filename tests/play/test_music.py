@@ -60,7 +60,7 @@ def player(folder: Path) -> AudioPlayer:
 def begin(sound: AudioPlayer, name: str) -> None:
     """Let time pass until this music plays."""
     end = monotonic() + LONGEST
-    while sound._music.playing != name:
+    while sound.soundtrack.playing != name:
         assert monotonic() < end, f"{name} does not begin"
         sound.music(name, 100)
         sleep(0.01)
@@ -76,18 +76,18 @@ def test_layers_come_in_with_what_happens_and_leave_again(player: AudioPlayer) -
     begin(player, "ground")
     for _ in range(20):
         player.music("", 100)
-    assert volumes(player._music) == [1.0, 0.0, 0.0, 0.0]
-    player._music.levels = MusicLevels(1.0, 0.5, 0.0, 1.0)
+    assert volumes(player.soundtrack) == [1.0, 0.0, 0.0, 0.0]
+    player.soundtrack.levels = MusicLevels(1.0, 0.5, 0.0, 1.0)
     player.music("ground", 200)
-    early = volumes(player._music)
+    early = volumes(player.soundtrack)
     assert 0 < early[1] < 0.25
     for _ in range(50):
         player.music("ground", 100)
-    assert volumes(player._music) == pytest.approx([1.0, 0.5, 0.0, 1.0], abs=0.02)
-    assert busy(player._music) == [True] * 4
+    assert volumes(player.soundtrack) == pytest.approx([1.0, 0.5, 0.0, 1.0], abs=0.02)
+    assert busy(player.soundtrack) == [True] * 4
     player.quiet()
-    assert busy(player._music) == [True] * 4, "what ends the sounds of a try leaves the music alone"
-    assert player._music.levels == CALM
+    assert busy(player.soundtrack) == [True] * 4, "what ends the sounds of a try leaves the music alone"
+    assert player.soundtrack.levels == CALM
 
 
 def test_one_music_fades_before_the_next_begins(player: AudioPlayer) -> None:
@@ -95,30 +95,30 @@ def test_one_music_fades_before_the_next_begins(player: AudioPlayer) -> None:
     for _ in range(10):
         player.music("ground", 100)
     player.music(MENU, 100)
-    assert player._music.playing == "ground"
-    assert 0 < volumes(player._music)[0] < 1
+    assert player.soundtrack.playing == "ground"
+    assert 0 < volumes(player.soundtrack)[0] < 1
     begin(player, MENU)
-    assert busy(player._music) == [True, False, False, False]
+    assert busy(player.soundtrack) == [True, False, False, False]
     begin(player, SILENCE)
-    assert busy(player._music) == [False] * 4
+    assert busy(player.soundtrack) == [False] * 4
 
 
 def test_no_volume_is_no_music(player: AudioPlayer) -> None:
     begin(player, MENU)
     player.set_volumes(70, 99, 99, 0)
-    assert busy(player._music) == [False] * 4
+    assert busy(player.soundtrack) == [False] * 4
     player.music(MENU, 1000)
-    assert busy(player._music) == [False] * 4
+    assert busy(player.soundtrack) == [False] * 4
     player.set_volumes(70, 0, 99, 99)
     begin(player, MENU)
-    assert busy(player._music)[0]
+    assert busy(player.soundtrack)[0]
 
 
 def test_missing_music_is_silent(tmp_path: Path) -> None:
     sound = AudioPlayer(tmp_path)
     sound.set_volumes(99, 99, 99, 99)
     begin(sound, "ground")
-    assert not any(busy(sound._music))
+    assert not any(busy(sound.soundtrack))
 
 
 @pytest.mark.parametrize(

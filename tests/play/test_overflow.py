@@ -58,13 +58,13 @@ def test_nothing_leaves_its_place_on_any_screen(
                 pygame.display.set_mode(size, pygame.RESIZABLE)
             # Written to no file: this is done a thousand times.
             app.player.settings = app.settings.changed(text_size=percent, name=LONGEST)
-            app._lay_out()
+            app.lay_out()
             layouts.append(Layout())
             app.draw()
             where = f"{name}: {size[0]} x {size[1]}, text of {percent} %"
             found.update(f"{where}: {each}" for each in layouts.pop().problems(app))
         pygame.display.set_mode(SIZES[1], pygame.RESIZABLE)
-        app._lay_out()
+        app.lay_out()
         driver.frames(1, ms=0)
 
     with (

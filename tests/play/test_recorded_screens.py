@@ -20,7 +20,7 @@ NAMES = sorted(f"{path.parent.name}/{path.stem}" for path in GOLDEN.glob("*scree
 DRAWS = re.compile(r"_?(draw|paint)(_|$)")
 NOT_SHOWN = {
     "play/lab/figure.py: Figure.draw": "its figures do",
-    "play/editor/view.py: Overlay._draw_reach": "needs Numba, which a page has not; test_editor.py shows it",
+    "play/editor/view.py: Overlay._draw_reach": "needs Numba, which a page has not; test_view.py shows it",
     "play/screen.py: BaseScreen.draw": "its screens do",
     "play/workspace.py: Pane.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",

@@ -361,7 +361,7 @@ def test_save_states_of_large_levels_are_few(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(save_states, "MAX_VALUES", save_states.MAX_VALUES // 10)
     played = playback.Playback(Simulation(heavy_level(300)), bytes(110), spacing=1)
     played.seek(110)
-    assert len(played._states) <= 30_000 / 300
+    assert len(played.states) <= 30_000 / 300
 
 
 def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -369,7 +369,7 @@ def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pyt
     played = playback.Playback(Simulation(RUN.level), RUN.inputs, spacing=4)
     digests = straight_digests(RUN, 300)
     played.seek(300)
-    assert len(played._states) <= 10
+    assert len(played.states) <= 10
     for tick in (0, 299, 8, 150, 151, 3):
         played.seek(tick)
         assert played.simulation.digest() == digests[tick]
@@ -392,7 +392,7 @@ def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
         frames(app, 1, 0)
         job = screen.export
         assert job is not None
-        job._thread.join(60)
+        job.thread.join(60)
         frames(app, 1, 0)
         assert app.notice == f"Saved: {app.player.folder / 'exports' / 'a-b-1.gif'}"
         assert (app.player.folder / "exports" / "a-b-1.gif").is_file()
@@ -408,6 +408,6 @@ def test_film_that_cannot_be_saved_is_reported() -> None:
         frames(app, 1, 0)
         if screen.export:
             # It may have failed already, and been reported, within that frame.
-            screen.export._thread.join(60)
+            screen.export.thread.join(60)
             frames(app, 1, 0)
         assert app.notice == "No film: File exists"

@@ -47,7 +47,7 @@ class Writer(MenuDriver):
 
     def place(self, index: int) -> tuple[float, float]:
         """Where a character begins, logical px."""
-        return self.field._stops[index], self.field.centre[1]
+        return self.field.stops[index], self.field.centre[1]
 
 
 @pytest.fixture(name="at")
@@ -185,17 +185,17 @@ def test_a_long_text_shows_the_part_with_the_cursor(at: Writer) -> None:
     assert field.text == ""
     pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="abcdefgh " * 15))
     at.frames(2)
-    assert field._first > 50
+    assert field.first_shown > 50
     for _ in range(40):
         at.key("backspace")
-        assert field._first + len(field._stops) - 1 == len(field.text), "the end is in sight"
+        assert field.first_shown + len(field.stops) - 1 == len(field.text), "the end is in sight"
     at.key("home")
-    assert field._first == 0
+    assert field.first_shown == 0
     right = at.place(-1)
     at.post_button(pygame.MOUSEBUTTONDOWN, at.place(0))
     at.post_button(pygame.MOUSEMOTION, (right[0] + 30, right[1]))
     at.post_button(pygame.MOUSEMOTION, (right[0] + 31, right[1]))
-    assert field._first > 0
+    assert field.first_shown > 0
     assert field.edited.span[0] == 0
     at.post_button(pygame.MOUSEBUTTONUP, right)
 

@@ -224,10 +224,10 @@ def test_it_is_known_whether_the_solver_is_compiled_on_this_machine(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     solve_module.compile_solver()
-    monkeypatch.setattr(solve_module, "_compile_once", cache(lambda: None))
+    monkeypatch.setattr(solve_module, "compile_once", cache(lambda: None))
     assert solve_module.is_solver_compiled(), "by another process"
     monkeypatch.setattr("ninja_game.backend.kernel_cache.code_folder", lambda: tmp_path)
     monkeypatch.setattr("ninja_game.backend.kernel_cache.SHIPPED", tmp_path)
     assert not solve_module.is_solver_compiled()
-    solve_module._compile_once()
+    solve_module.compile_once()
     assert solve_module.is_solver_compiled(), "in this process, though nothing can be kept"

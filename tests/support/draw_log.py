@@ -4,11 +4,13 @@ Numbers are logical px, colours are roles of the palette. ``DrawLog.called``: th
 ``DrawLog.stale``: the screens on which something had not been drawn again that had changed.
 """
 
+import re
 import sys
+from ast import literal_eval
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from types import CodeType, FrameType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 from unittest.mock import patch
 
 import pygame
@@ -173,7 +175,7 @@ class DrawLog:
 
     def _view(self, view: EditorView, *_: Any, **__: Any) -> str:
         """The level with its marks is painted again, too."""
-        view._laid_out = ()
+        view.repaint()
         return ""
 
     def _text(self, _: Any, surface: Any, text: str, x: float, y: float, size: float, colour: Any,
@@ -210,6 +212,23 @@ def drawn(app: App) -> str:
         app.stack.redraw_all()
         app.draw()
     return "\n".join(lines)
+
+
+class DrawnText(NamedTuple):
+    """A text on the window. ``at``: where it begins, logical px; ``colour``: its role in the palette."""
+
+    text: str
+    at: tuple[float, float]
+    bold: bool
+    colour: str
+
+
+def drawn_texts(app: App) -> list[DrawnText]:
+    """The texts of all that is drawn now."""
+    found = re.findall(
+        r"^text (.+) at ([-\d.]+),([-\d.]+) size \S+( bold)?(?: (?!bold)\S+)? (\S+)$", drawn(app), re.MULTILINE
+    )
+    return [DrawnText(literal_eval(text), (float(x), float(y)), bool(bold), ink) for text, x, y, bold, ink in found]
 
 
 def notice_box(app: App) -> pygame.Rect:

@@ -473,7 +473,7 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     driver.mouse_up()
     packer = screen.packer
     packer.path, packer.is_busy, packer._step = folder, True, ("Certifying, 3 of 8 levels done", 0.375, 0.0)
-    with patch.object(type(packer._job), "is_idle", False):
+    with patch.object(type(packer.job), "is_idle", False):
         driver.frames(2)
         yield "packs-making-ready"
     packer.is_busy, packer.text = False, ""
@@ -498,7 +498,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         stack.enter_context(patch("ninja_game.play.menus.daily.date", Today))
         stack.enter_context(patch("ninja_game.play.menus.daily.run_in_background", lambda *_: endless))
         screen = driver.opened("Daily", DailyScreen)
-        maker = screen._maker
+        maker = screen.maker
         assert maker is not None
         maker.progress = "level 3 of 8"
         driver.frames()

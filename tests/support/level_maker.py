@@ -8,6 +8,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.examination import LevelQuestion
 from ninja_game.editor.files import new_source
 from ninja_game.editor.stamp import Stamp, with_stamp
+from ninja_game.play.editor.part import ToolButton
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.screen import BaseScreen
@@ -45,7 +46,7 @@ class Maker(MenuDriver):
 
     @property
     def editor(self) -> EditorScreen:
-        screen = next(each for each in self.app.stack._screens if isinstance(each, EditorScreen))
+        screen = next(each for each in self.app.stack.screens if isinstance(each, EditorScreen))
         assert screen is not None
         return screen
 
@@ -74,6 +75,23 @@ class Maker(MenuDriver):
     def put_more(self, *objects: ObjectSpec) -> None:
         """Have these objects in the level, too."""
         self.put(with_stamp(self.draft, Stamp({}, objects)))
+
+    def point(self, x: float, y: float) -> None:
+        """Move the mouse to a point of the level, without a click."""
+        self.mouse(*self.at(x, y), click=False)
+
+    def take(self, name: str, *, click: bool = True) -> None:
+        """Click what has this name in the palette, or point at it."""
+        x, y, w, h = next(at for what, at in self.editor.palette.places() if getattr(what, "name", "") == name)
+        self.mouse(x + w / 2, y + h / 2, click=click)
+
+    def tool_button(self, name: str) -> ToolButton:
+        """The button of a command above the level."""
+        return next(each for each in self.editor.widgets if isinstance(each, ToolButton) and each.name == name)
+
+    def await_problems(self) -> None:
+        """Let pictures pass until the problems of the level as it is are known."""
+        self.wait(lambda: self.editor.session.examination.level is self.draft.level, "problems")
 
     def drag(self, *places: tuple[float, float], button: int = 1) -> None:
         for number, place in enumerate(places):

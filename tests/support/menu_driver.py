@@ -12,6 +12,7 @@ from ninja_game.files.bundled import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import FormPanel
@@ -95,7 +96,7 @@ class MenuDriver:
     def type(self, text: str) -> None:
         """Type a text as the system gives it: a key and then its character."""
         for char in text:
-            name = {" ": "space"}.get(char, char.lower())
+            name = {" ": "space", ",": "comma"}.get(char, char.lower())
             pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES[name], mod=0, unicode=char))
             pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=char))
             pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=SCANCODES[name], mod=0, unicode=char))
@@ -199,6 +200,20 @@ class MenuDriver:
         """Press what has the focus; the level that it opens."""
         self.press("return")
         return self.shown(LevelScreen)
+
+    def stuck_level(self) -> LevelScreen:
+        """The first level, after this many deaths that help is offered."""
+        level = self.open_level()
+        for number in range(STUCK_AFTER):
+            if number:
+                level.retry()
+            level.begin()
+            self.keys.script = [0] * 30
+            self.frames(30)
+            assert not level.play.is_stuck
+            level.give_up()
+        self.frames(DEATH_PAUSE + 3)
+        return level
 
     def settings_page(self, page: str) -> SettingsScreen:
         """Choose a page of the settings, which are open, with the mouse."""

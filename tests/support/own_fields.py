@@ -53,7 +53,7 @@ def own_fields_only() -> Iterator[None]:
         patch.object(Object, "__setattr__", write),
         patch.object(plain, "_get_object", lambda o: tuple(slot.__get__(o) for slot in slots)),
         patch.object(plain, "_set_object", write_all),
-        patch.object(memories._PROCESS, "kernels", Interpreted()),
+        patch.object(memories.PROCESS, "kernels", Interpreted()),
     ):
         yield
 

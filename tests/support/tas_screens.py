@@ -94,7 +94,7 @@ class TasLog(DrawLog):
         return f"path {self._colour(colour)} width {width:.2f} {_points(places)}"
 
     def _level_part(self, part: LevelPart, *_: Any) -> str:
-        part._paths = None
+        part.paths = None
         return "level of the TAS editor"
 
     def _rows(self, sheet: RowSheet, *_: Any) -> str:
@@ -159,7 +159,7 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
         yield "tas-leave-unsaved"
         at.choose("Discard changes")
     waiting = OpeningScreen(driver.app, at.session.recording(at.editor.track, "Locksmith"), lambda: at.screen)
-    waiting._thread.join()
+    waiting.thread.join()
     waiting.update = Mock()  # type: ignore[method-assign]
     driver.app.push(waiting)
     yield "tas-opening"
@@ -282,7 +282,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
             at.editor.against = at.session.branches.all[1].track
         at.editor.tab = lead.name
         at.frames(20)
-        lead._job.finish()
+        lead.job.finish()
         at.frames(2)
         yield f"tas-lead-{name}"
     at.editor.tab = search.name

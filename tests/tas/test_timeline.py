@@ -74,7 +74,7 @@ def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: 
             with_press_bits(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
         )
         timeline = Timeline(RUNS["01-2-the-works"].level, track.inputs, memory=memory)
-        ids = [id_ for id_, seen in enumerate(timeline._initial) if seen[0] in {0, 9, 11}][:3]
+        ids = [id_ for id_, seen in enumerate(timeline.initial) if seen[0] in {0, 9, 11}][:3]
         for _ in range(data.draw(st.integers(1, 6))):
             what = data.draw(st.sampled_from(["edit", "edit", "work", "need", "watch"]))
             if what == "edit":
@@ -159,7 +159,7 @@ def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
     timeline = Timeline(recording.level, inputs, memory=memory)
     timeline.simulate(10**6)
     formulas = [each for each, count in NAMES.items() if not count] + ["distance(100, 200)", "hypot(vx, vy) * 2"]
-    for id_, (kind, *_) in enumerate(timeline._initial):
+    for id_, (kind, *_) in enumerate(timeline.initial):
         try:
             timeline.at_start(id_)
         except ArgumentError:
@@ -183,7 +183,7 @@ def test_watched_doors_are_open_as_long_as_they_are() -> None:
     level = parse_level_string("0" * 713 + "|5^100,566!9^200,564,0,0,8,23,0,0,0!0^400,100")
     timeline = Timeline(level, bytes([2] * 80), memory="plain")
     timeline.simulate(1000)
-    door = next(id_ for id_, seen in enumerate(timeline._initial) if seen[0] == 9)
+    door = next(id_ for id_, seen in enumerate(timeline.initial) if seen[0] == 9)
     opened = parse_watch(f"opened({door})").values(timeline)
     assert (opened[0], opened.max(), opened[-1]) == (0.0, 1.0, 0.0)
     assert parse_watch(f"status({door})").values(timeline)[-1] != parse_watch(f"status({door})").values(timeline)[0]

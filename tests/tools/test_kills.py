@@ -2,10 +2,12 @@
 
 import sys
 from pathlib import Path
+from random import Random
+from unittest.mock import Mock, patch
 
 import pytest
 
-from tools.soak.kills import Drawing, Track, digest_of_track, kill_test, opened_run
+from tools.soak.kills import Drawing, Track, digest_of_track, kill_test, opened_run, say_and_save
 
 
 @pytest.mark.slow
@@ -47,3 +49,15 @@ def test_an_undo_that_was_not_said_loses_nothing(noted: str, edits: str, wrong: 
     assert list(state.losses(tmp_path / "home", facts)) == wrong
     assert state.last == digest_of_track(tracks[noted[-1]])
     assert list(state.losses(tmp_path / "home", [])) == [], "it is as it was found"
+
+
+def test_what_is_behind_the_exit_is_not_expected_in_the_saved_file(tmp_path: Path) -> None:
+    state, pipe, rng = Track(tmp_path / "home"), Mock(), Random()
+    session = opened_run(tmp_path / "home")
+    session.change(session.track.replaced(len(session.track), len(session.track), [0] * 40 + [1]))
+    assert session.tail_behind == "exit"
+    with patch.object(rng, "random", lambda: 0.0):
+        say_and_save(session, rng, pipe)
+    session.close(keep=True)
+    facts = [call.args[0] for call in pipe.send.call_args_list]
+    assert list(state.losses(tmp_path / "home", facts)) == []

@@ -707,7 +707,7 @@ def test_a_time_that_the_run_does_not_have_is_refused_under_its_players_name(
 def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_reported(
     runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *_: None)
+    monkeypatch.setattr("ninja_game.board.copies.near_to_another", lambda *_: None)
     (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
         put(
@@ -754,7 +754,7 @@ def test_a_run_that_shares_the_path_alone_is_marked_and_keeps_its_place(
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Bea"), day=2)
     near = Near([0], "9 of 9 are those of", sure)
-    monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *compared: near if compared[3] else None)
+    monkeypatch.setattr("ninja_game.board.copies.near_to_another", lambda *compared: near if compared[3] else None)
     judged = judged_by_file_dates(runs, levels)
     table = Ranking(judged, published_levels(levels)).tables[DIGEST][PLAYED, FASTEST]
     assert [(each.place, each.run.player) for each in table] == (
@@ -1089,7 +1089,7 @@ def test_check_against_something_else_is_an_error(text: str, runs: Path, levels:
 def test_how_a_record_moved_shows_the_ten_newest_steps(
     runs: Path, levels: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.board.copies._near_to_another", lambda *_: None)
+    monkeypatch.setattr("ninja_game.board.copies.near_to_another", lambda *_: None)
     for number in range(12):
         put(runs, f"{number}.txt", slow_walk(12 - number, author=f"Ann {number}"), day=1 + number)
     BoardPages(tmp_path / "site", Ranking(judged_by_file_dates(runs, levels), published_levels(levels))).write()

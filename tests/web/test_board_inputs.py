@@ -17,7 +17,7 @@ from unittest.mock import Mock
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.board.copies import ALIGNED, SHIFTED, Course, Courses, _near_to_another, course_of, edit_distance
+from ninja_game.board.copies import ALIGNED, SHIFTED, Course, Courses, course_of, edit_distance, near_to_another
 from ninja_game.board.judge import judge
 from ninja_game.board.players import Players, folded
 from ninja_game.cli.main import cli
@@ -488,8 +488,8 @@ def test_runs_by_two_in_turn_are_compared_once_and_the_fastest_only() -> None:
         for number in range(200):
             places = frozenset(map(float, range(750 + number)))
             courses.add(number, number, partial(replace, course, places=places))
-        assert _near_to_another("Ann", course, courses, players, 0) is None
-        near = _near_to_another("Cid", course, courses, players, 200)
+        assert near_to_another("Ann", course, courses, players, 0) is None
+        near = near_to_another("Cid", course, courses, players, 200)
         assert near is not None
         remark = f"{750 + nearest} of the 1000 places on its way, and 0 of 0 presses and releases, are those of"
         assert (near.numbers[0], *near[1:]) == (nearest, remark, False)

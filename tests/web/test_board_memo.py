@@ -158,8 +158,8 @@ def test_the_command_after_the_first_compares_nothing(
     tmp_path: Path, levels: Path, runs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """All runs have one moment, and near copies lie between others; one more run is compared alone."""
-    compared, simulated = (Mock(side_effect=getattr(copies, name)) for name in ("_near_to_another", "run_level"))
-    monkeypatch.setattr(copies, "_near_to_another", compared)
+    compared, simulated = (Mock(side_effect=getattr(copies, name)) for name in ("near_to_another", "run_level"))
+    monkeypatch.setattr(copies, "near_to_another", compared)
     monkeypatch.setattr(copies, "run_level", simulated)
     data, site = tmp_path / "board.json", tmp_path / "site"
     put(runs, "a.txt", slow_walk(40, author="Ann"))

@@ -67,15 +67,15 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     out = tmp_path / "out"
     first = build.build_site(out, pyodide, tmp_path)
     names = names_in(out)
-    assert {*first, build._MARK} == names
+    assert {*first, build.SITE_MARK} == names
     assert {"index.html", "play.html", "sw.js", "manifest.webmanifest", "licences/MPL-2.0.txt"} <= names
     (app,) = {name.split("/")[0] for name in names if name.startswith("app-")}
     assert {f"{app}/start.js", f"{app}/game.tar.gz", f"{app}/pyodide/pyodide.mjs"} <= names
     before = {name: (out / name).read_bytes() for name in names}
     (out / "mine.txt").write_text("not of the site")
-    mark = json.loads((out / build._MARK).read_text())
+    mark = json.loads((out / build.SITE_MARK).read_text())
     mark["files"] += ["old.js", "../outside.txt", "a/../../outside.txt", "/outside.txt", "\0", "", "pyodide/.."]
-    (out / build._MARK).write_text(json.dumps(mark))
+    (out / build.SITE_MARK).write_text(json.dumps(mark))
     (out / "old.js").write_text("of an earlier version")
     (tmp_path / "outside.txt").write_text("not in the folder")
     DOCUMENTS.cache_clear()
@@ -85,7 +85,7 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     assert (tmp_path / "outside.txt").exists()
 
 
-@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "learn", build._MARK], 1))
+@pytest.mark.parametrize("place", the_rest_is_slow(["index.html", "licences/MPL-2.0.txt", "learn", build.SITE_MARK], 1))
 def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path, tmp_path: Path) -> None:
     out, outside = tmp_path / "out", tmp_path / "outside"
     build.build_site(out, pyodide, tmp_path)
@@ -99,7 +99,7 @@ def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path,
 
 def test_a_mark_that_is_nested_too_deep_is_no_mark(pyodide: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / build._MARK).write_text("[" * 100_000)
+    (tmp_path / "out" / build.SITE_MARK).write_text("[" * 100_000)
     with pytest.raises(FileError, match="not a site of ninja-game"):
         build.build_site(tmp_path / "out", pyodide, tmp_path)
 
@@ -182,7 +182,7 @@ def test_a_folder_that_board_has_made_becomes_a_site(pyodide: Path, tmp_path: Pa
         build.build_site(out, pyodide, tmp_path)
     (out / "mine.txt").unlink()
     build.build_site(out, pyodide, tmp_path)
-    assert pages | {"play.html", build._MARK} <= names_in(out)
+    assert pages | {"play.html", build.SITE_MARK} <= names_in(out)
 
 
 def test_other_files_than_those_of_the_version_are_refused(pyodide: Path, tmp_path: Path) -> None:

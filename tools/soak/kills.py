@@ -175,10 +175,11 @@ def digest_of_track(track: InputTrack) -> str:
 
 
 def say_and_save(session: TasSession, rng: Random, pipe: Connection) -> None:
-    """Say what the run is; now and then save it."""
-    digest = digest_of_track(session.track)
-    pipe.send(("edited", digest, 0))
+    """Say what the run is; now and then save it, which leaves out what is behind the exit."""
+    pipe.send(("edited", digest_of_track(session.track), 0))
     if rng.random() < 0.05:
+        exits = session.tail_behind == "exit"
+        digest = digest_of_track(session.track.up_to(session.timeline.end[0] + 1) if exits else session.track)
         pipe.send(("about", digest, 0))
         session.save(session.file.path or Path(), replacing=True)
         pipe.send(("saved", digest, 0))
@@ -204,7 +205,7 @@ class Game:
             else:
                 place = kind, key if kind != "replay" else str(number)
                 self.numbers[place] = max(number, self.numbers.get(place, 0))
-        writing._tidied.clear()  # noqa: SLF001 - as a new process
+        writing.tidied.clear()  # as a new process
         data = PlayerData(folder)
         bests = data.records.level_bests()
         yield from (f"not opened: {message}" for message in data.messages)

@@ -58,7 +58,7 @@ class StatusLine(EditorPart):
         x, y, w, _ = self.area
         self.widgets = [ToolButton((x + w - 62, y + 2, 58, 17), "zoom", "Zoom: {zoom}", run, view)]
 
-    def _text(self) -> str:
+    def text(self) -> str:
         tools = self.session.tools
         if tools.placing_switch:
             what = object_type_name(tools.brush.spec)
@@ -86,7 +86,7 @@ class StatusLine(EditorPart):
         return self.view.hint or shown
 
     def render_key(self) -> tuple[object, ...]:
-        return self.session.tools.pointer, self.session.tools.frame_size, self._text(), self.view.camera.zoom
+        return self.session.tools.pointer, self.session.tools.frame_size, self.text(), self.view.camera.zoom
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -95,7 +95,7 @@ class StatusLine(EditorPart):
         theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=colour)
         place = "{} x {} cells".format(*tools.frame_size) if tools.frame_size else f"{x:.0f},{y:.0f} px"
         theme.text(surface, place, 58, top, size=9.5, colour=colour)
-        theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=584)
+        theme.text(surface, self.text(), 140, top, size=9.5, colour=colour, width=584)
 
 
 _REACH = "In 1 s, {}, the ninja can be where it is shaded, dies in the red; red lines: enemies; bars: last jumps"

@@ -58,13 +58,13 @@ class Findings(EditorPart):
         super().__init__(view)
         self._shown: list[Finding] = []
         self._gone_to = -1
-        self._lines: list[tuple[int, str]] = []
-        self.list = ListView(self.area, 19, self._draw_row, lambda row: go_to(self._lines[row][0]))
+        self.lines: list[tuple[int, str]] = []
+        self.list = ListView(self.area, 19, self._draw_row, lambda row: go_to(self.lines[row][0]))
         self.list.empty, self.list.hint = "No problems found", "A click goes there and selects it"
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:
-        return tuple(self._lines), self.list.first
+        return tuple(self.lines), self.list.first
 
     def update(self, real_ms: int) -> None:
         if self._shown is not self.session.examination.findings:
@@ -75,19 +75,19 @@ class Findings(EditorPart):
                 f"{odd.sentence}. Accepted: {accepted[odd.code]}" if odd.code in accepted else odd.advice
                 for odd in self._shown
             ]
-            self._lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, width, 9.5)]
-            self.list.fill(self._lines)
+            self.lines = [(k, line) for k, text in enumerate(texts) for line in wrapped(theme, text, width, 9.5)]
+            self.list.fill(self.lines)
         if self._gone_to != self.view.finding:
             self._gone_to = self.view.finding
-            rows = [row for row, (number, _) in enumerate(self._lines) if number == self._gone_to]
+            rows = [row for row, (number, _) in enumerate(self.lines) if number == self._gone_to]
             for row in reversed(rows):
                 self.list.select(row)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        number, line = self._lines[index]
+        number, line = self.lines[index]
         x, y, w, _ = area
         accepted = self._shown[number].code in self.session.edited.accepted
-        if not accepted and (index == 0 or self._lines[index - 1][0] != number):
+        if not accepted and (index == 0 or self.lines[index - 1][0] != number):
             theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
         colour = theme.palette.faint if accepted else theme.palette.text
         theme.text(surface, line, x + 14, y + 5, size=9.5, width=w - 16, colour=colour)

@@ -18,9 +18,10 @@ class PointerSearches:
     def __init__(self) -> None:
         self.start = "off"  #: the ninja's state at the pointer when the search of its reach begins, of STARTS
         self.reaches = NewestJob(find_reach)
-        self.rounds = NewestJob(round_of)
+        self.rounds: NewestJob[Level, tuple[Level, PathPoints]] = NewestJob(lambda level: (level, round_of(level)))
         self._asked: Ask | None = None
         self._drone: tuple[Level, ObjectSpec | None] | None = None
+        self._round: Level | None = None
 
     @property
     def reach(self) -> Reach | None:
@@ -30,7 +31,8 @@ class PointerSearches:
     @property
     def drone_round(self) -> PathPoints:
         """The round of the drone that is selected, or in hand over the level."""
-        return self.rounds.result or () if self._drone and self._drone[1] else ()
+        level, places = self.rounds.result or (None, ())
+        return places if level is self._round else ()
 
     def next_start(self) -> None:
         self.start = next_option(list(STARTS), self.start)
@@ -54,6 +56,7 @@ class PointerSearches:
         spec = tools.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
         drone = spec if spec and spec.kind == DRONE and well_formed(spec) else None
         if (tools.draft.level, drone) != self._drone:
-            self._drone, self.rounds.result = (tools.draft.level, drone), None
-            if drone:
-                self.rounds.ask(drone_round(tools.draft, drone))
+            self._drone = tools.draft.level, drone
+            self._round = drone_round(tools.draft, drone) if drone else None
+            if self._round:
+                self.rounds.ask(self._round)

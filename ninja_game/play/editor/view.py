@@ -299,6 +299,10 @@ class EditorView(Pane):
             self.sheet.show_grid(self.grid.lines())
             self._marked = ()
 
+    def repaint(self) -> None:
+        """Paint all of the level at the next drawing, also what has not changed."""
+        self._laid_out = ()
+
     def _point(self) -> None:
         """Move the pointer to the mouse's place in the level."""
         (left, top), size = self._rect.topleft, self._rect.size

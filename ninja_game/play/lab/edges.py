@@ -185,7 +185,7 @@ class WalkingEnemies(Figure):
     def controls(self) -> Sequence[Control]:
         return [self.choice("Movement", [(name.replace("-", " "), name) for name in MOVEMENTS], "movement")]
 
-    def _of_kind(self, kind: int) -> list[Object]:
+    def of_kind(self, kind: int) -> list[Object]:
         world = self.stage.world
         return [world.objects[slot] for slot in range(1, world.slots_used) if world.objects[slot].kind == kind]
 
@@ -196,7 +196,7 @@ class WalkingEnemies(Figure):
             cell = door.edge_1 // 4
             return abs(tiles.CENTRE_X[cell] - x) + abs(tiles.CENTRE_Y[cell] - y)
 
-        self.toggle(min(self._of_kind(DOOR), key=distance))
+        self.toggle(min(self.of_kind(DOOR), key=distance))
 
     def drag(self, x: float, y: float) -> None:
         """Dragging does nothing; only a press does."""
@@ -210,11 +210,11 @@ class WalkingEnemies(Figure):
         if tick % 320 == 0:
             self.movement = list(MOVEMENTS)[tick // 320 % len(MOVEMENTS)]
         elif tick % 80 == 0:
-            self.toggle(self._of_kind(DOOR)[tick // 80 % 2])
+            self.toggle(self.of_kind(DOOR)[tick // 80 % 2])
 
     def tick(self) -> None:
         """One tick; record the directions that the deciding drones have tried."""
-        before = {o.slot: (o.cell, o.direction) for o in self._of_kind(DRONE)}
+        before = {o.slot: (o.cell, o.direction) for o in self.of_kind(DRONE)}
         self.stage.step()
         for call in self.stage.calls:
             if call.name == "first_open":
@@ -236,13 +236,13 @@ class WalkingEnemies(Figure):
 
     def numbers(self) -> list[tuple[str, str]]:
         rows = []
-        for number, o in enumerate(self._of_kind(DRONE), 1):
+        for number, o in enumerate(self.of_kind(DRONE), 1):
             tried = ", ".join(f"{_DIRECTIONS[direction]} {EDGE_WORDS[state]}" for direction, state in self.tried(o))
             rows.append((f"drone {number} tried", tried or "nothing yet"))
-        opened = sum(bool(door.switched) for door in self._of_kind(DOOR))
+        opened = sum(bool(door.switched) for door in self.of_kind(DOOR))
         return [
             *rows,
-            ("doors open", f"{opened} of {len(self._of_kind(DOOR))}"),
+            ("doors open", f"{opened} of {len(self.of_kind(DOOR))}"),
             ("tick", str(self.stage.simulation.tick)),
         ]
 
@@ -251,7 +251,7 @@ class WalkingEnemies(Figure):
         self.stage.draw(sheet)
         sheet.grid()
         sheet.edges(self.stage.world)
-        for number, o in enumerate(self._of_kind(DRONE), 1):
+        for number, o in enumerate(self.of_kind(DRONE), 1):
             sheet.circle(palette.switch, o.x, o.y, DRONE_RADIUS, 1.5)
             sheet.text(str(number), o.x, o.y - 15)
             if o.slot in self.decided:

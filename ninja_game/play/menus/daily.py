@@ -65,7 +65,7 @@ class DailyScreen(ThumbnailScreen):
         self.entry: Entry | None = None
         self.days: dict[str, Entry] = {}
         self.message = ""
-        self._maker: _DailyMaker | None = None
+        self.maker: _DailyMaker | None = None
         self._shown = ""
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
         self._dug, self._heading, self._dig_ms = [(16, 12)], (1, 0), 0
@@ -81,14 +81,14 @@ class DailyScreen(ThumbnailScreen):
         self._find()
         super().enter()
         if self.entry is None and not self.message:
-            self._maker = _DailyMaker(self.player.folder / LEVELS, self.day)
+            self.maker = _DailyMaker(self.player.folder / LEVELS, self.day)
 
     def leave(self) -> None:
         """Stop making the level; the next visit starts again."""
         super().leave()
-        if self._maker:
-            self._maker.stop.set()
-            self._maker = None
+        if self.maker:
+            self.maker.stop.set()
+            self.maker = None
 
     def build(self) -> Sequence[Widget]:
         return [self.play, self.practice] if self.entry else []
@@ -119,17 +119,17 @@ class DailyScreen(ThumbnailScreen):
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
-        maker = self._maker
+        maker = self.maker
         if maker is None:
             return
         if not self.app.settings.reduced_motion:
             self._dig(real_ms)
         if not maker.thread.is_alive():
-            self._maker = None
+            self.maker = None
             self._find()
             self.message = self.message or maker.problem
             super().enter()
-        if maker.progress != self._shown or self._maker is None:
+        if maker.progress != self._shown or self.maker is None:
             self._shown = maker.progress
             self.redraw = True
 
@@ -157,9 +157,9 @@ class DailyScreen(ThumbnailScreen):
             canvas.fill_rect(surface, palette.tile, _LEFT, _TOP, _WIDE, _WIDE * 25 / 33, 4)
             for column, row in set(self._dug):
                 canvas.fill_rect(surface, palette.background, _LEFT + cell * column, _TOP + cell * row, cell, cell)
-            if self._maker:
+            if self.maker:
                 theme.panel(surface, _LEFT + 20, _TOP + 140, _WIDE - 40, 64)
-                for offset, size, text in ((150, 16, "Building today's level"), (180, 11, self._maker.progress)):
+                for offset, size, text in ((150, 16, "Building today's level"), (180, 11, self.maker.progress)):
                     middle = _LEFT + _WIDE / 2
                     theme.text(surface, text, middle, _TOP + offset, size=size, align="centre", width=_WIDE - 60)
         else:

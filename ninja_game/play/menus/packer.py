@@ -52,7 +52,7 @@ class Packer(Aside):
         self._compared: Pack | None = None  #: the pack that was last compared with the zip
         self._open_problems: ReadyPack | None = None  #: ready but for problems, about which the desk asks
         self._step: tuple[str, float | None, float] = "", None, 0.0  #: text, share and start, s
-        self._job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
+        self.job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
 
     @property
     def waited_for(self) -> bool:
@@ -78,7 +78,7 @@ class Packer(Aside):
         self.saved = self._open_problems = None
         self._seconds = seconds
         self._say("Beginning", 0.0)
-        self._job.ask(path)
+        self.job.ask(path)
 
     def _know(self, problems: Sequence[PackFinding]) -> None:
         self._known.setdefault(self.path, set()).update((odd.file, odd.code) for odd in problems)
@@ -123,11 +123,11 @@ class Packer(Aside):
         seconds = monotonic() - start
         self.text = "Stopping" if self._stopped else text if share is not None else f"{text}: {seconds:.0f} s"
         self.share = share
-        if self._job.is_idle:
-            self.is_busy, self.text = False, self._job.problem
+        if self.job.is_idle:
+            self.is_busy, self.text = False, self.job.problem
             if self.app.stack:
                 self.app.top.look_again()
-            ready = None if self.text else self._job.result
+            ready = None if self.text else self.job.result
             if ready and self.news(ready.problems):
                 self._open_problems = ready
                 self.text = f"Neither zip nor link yet: {counted(len(ready.problems), 'open problem')}"

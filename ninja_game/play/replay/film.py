@@ -349,12 +349,12 @@ class FilmJob:
         self._wanted = True
         self.done = False
         self.result = ""
-        self._thread = run_in_background(self._make, self._fail)
+        self.thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:
         self._wanted = False
-        if self._thread.is_alive():
-            self._thread.join(5)
+        if self.thread.is_alive():
+            self.thread.join(5)
 
     @property
     def percent(self) -> int:

@@ -42,7 +42,7 @@ class Playback:
         self.inputs = inputs
         # A save-state also holds its inputs so far, one byte per tick.
         values = tick_cost(simulation.level) + len(inputs) // 250
-        self._states = states or SaveStates(simulation.tick, simulation.save(), spacing=spacing, values=values)
+        self.states = states or SaveStates(simulation.tick, simulation.save(), spacing=spacing, values=values)
 
     @property
     def tick(self) -> int:
@@ -57,17 +57,17 @@ class Playback:
 
     def note(self) -> None:
         """Keep a save-state if it is due: for ticks that ``step`` has not played."""
-        if self._states.wants(self.simulation.tick):
-            self._states.keep(self.simulation.tick, self.simulation.save())
+        if self.states.wants(self.simulation.tick):
+            self.states.keep(self.simulation.tick, self.simulation.save())
 
     def forget_after(self, tick: int) -> None:
         """Drop the save-states after a tick: the inputs differ from there on."""
-        self._states.forget_after(tick)
+        self.states.forget_after(tick)
 
     def seek(self, tick: int, most: int = MAX_TICKS) -> int:
         """Seek to a tick, simulating at most ``most`` ticks; the number of ticks that are left."""
         run = self.simulation
-        nearest, state = self._states.nearest(tick)
+        nearest, state = self.states.nearest(tick)
         if not nearest <= run.tick <= tick:
             run.restore(state)
         while run.tick < tick and most:
@@ -93,7 +93,7 @@ class Playback:
         run = self.simulation
         other = Simulation(run.level, body=run.body)
         other.restore(run.save())
-        return Playback(other, self.inputs, states=self._states)
+        return Playback(other, self.inputs, states=self.states)
 
 
 class Ghost:

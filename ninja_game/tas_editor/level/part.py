@@ -77,7 +77,7 @@ class LevelPart(TasPart):
         self.hover: int | None = None
         self.pointed: ObjectView | None = None
         self._hovered_run = editor.track
-        self._paths: paths.LevelPaths | None = None
+        self.paths: paths.LevelPaths | None = None
         self._ghosts: dict[object, RunGhost] = {}
         self._known: tuple[object, ...] = ()
         self._positions: paths.Positions = np.zeros((0, 2))
@@ -170,12 +170,12 @@ class LevelPart(TasPart):
         picture.show(editor.cursor)
         self._follow_ninja(rect.size, fraction)
         whole = picture.fit(rect.size) or whole
-        if whole or self._paths is None or self._paths.theme is not theme:
-            self._paths = paths.LevelPaths(theme, picture.canvas)
+        if whole or self.paths is None or self.paths.theme is not theme:
+            self.paths = paths.LevelPaths(theme, picture.canvas)
         picture.view.draw(picture.surface, fraction, whole=whole)
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
-        over = self._paths
+        over = self.paths
         over.draw_beside(inner, others)
         over.draw_flags(inner, positions, editor.track.markers)
         names = [(run.label, run.place(fraction), run.shade or theme.palette.ghost) for run in self.ghosts]

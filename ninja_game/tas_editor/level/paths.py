@@ -65,7 +65,7 @@ class LevelPaths:
         self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._covered = pygame.Rect(0, 0, 0, 0)
         self._beside: tuple[OtherRunPath, ...] = ()
-        self._labels: list[pygame.Rect] = []
+        self.labels: list[pygame.Rect] = []
 
     def _px(self, length: float) -> float:
         """A length of the TAS editor in px of the level: drawings over the level do not grow with it."""
@@ -77,7 +77,7 @@ class LevelPaths:
 
     def draw_beside(self, surface: pygame.Surface, paths: Sequence[OtherRunPath]) -> None:
         """Begin a picture, with the other runs."""
-        self._labels.clear()
+        self.labels.clear()
         if tuple(paths) != self._beside:
             self._beside = tuple(paths)
             self._under.fill((0, 0, 0, 0), self._covered)
@@ -125,7 +125,7 @@ class LevelPaths:
                 x, y = at = _point(positions, tick)
                 canvas.line(surface, palette.outline, at, (x, y - px(14)), px(_THIN))
                 tips = [(x, y - px(14)), (x + px(7), y - px(11)), (x, y - px(8.5))]
-                self._labels.append(canvas.polygon(surface, palette.good, tips))
+                self.labels.append(canvas.polygon(surface, palette.good, tips))
                 self._label(surface, self.theme.fit(name, _MAX_NAME, LETTERS), at, (8.5, -16), palette.text)
 
     def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
@@ -140,12 +140,12 @@ class LevelPaths:
         """The names of ghosts ("": none) above them; no name covers a ghost or the ninja, which is ``at`` a place."""
         places = [at, *(place for _, place, _ in ghosts)]
         ninjas = [self.canvas.rect(x - RADIUS, y - RADIUS, 2 * RADIUS, 2 * RADIUS) for x, y in places]
-        self._labels[:0] = ninjas
+        self.labels[:0] = ninjas
         above = -RADIUS * self.canvas.scale / self.theme.canvas.scale - LETTERS - 4
         for name, place, colour in ghosts:
             if name:
                 self._label(surface, self.theme.fit(name, _MAX_NAME, LETTERS), place, (-4, above), colour)
-        del self._labels[: len(ninjas)]
+        del self.labels[: len(ninjas)]
 
     def _label(self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color) -> None:
         """A small text on a plate beside a place of the level, kept inside of the picture if the place is."""
@@ -160,14 +160,14 @@ class LevelPaths:
         y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
         plate = theme.canvas.rect(x - 1.5, y - 0.5, w + 3, LETTERS + 2.5)
         up = beside[1] < 0
-        while (hidden := plate.collidelist(self._labels)) >= 0 and self._labels[hidden].bottom < surface.get_height():
-            other = self._labels[hidden]
+        while (hidden := plate.collidelist(self.labels)) >= 0 and self.labels[hidden].bottom < surface.get_height():
+            other = self.labels[hidden]
             # A label above a place moves up, away from the ninja, as long as there is room, and only then down.
             up = up and plate.top <= other.top and other.top > plate.height
             top = other.top - plate.height - 1 if up else other.bottom + 1
             y += (top - plate.top) / scale
             plate.top = top
-        self._labels.append(plate)
+        self.labels.append(plate)
         ground = with_alpha(theme.palette.background, 200)
         theme.canvas.fill_rect(surface, ground, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
         theme.text(surface, text, x, y, size=LETTERS, colour=colour)

@@ -196,10 +196,10 @@ class RollCommands:
     def name_tick(self) -> None:
         editor, tick = self._editor, self._editor.cursor
         name = next((name for marked, name in editor.track.markers if marked == tick), "")
-        named = partial(self._name, tick)
+        named = partial(self.put_name, tick)
         ask_text(editor.app, f"Tick {tick}", "Name or comment (empty removes it)", name, "Name it", named)
 
-    def _name(self, tick: int, text: str) -> None:
+    def put_name(self, tick: int, text: str) -> None:
         earlier = [at for at, name in self._editor.track.markers if name == marker_name(text) and at != tick]
 
         def named(track: InputTrack) -> InputTrack:

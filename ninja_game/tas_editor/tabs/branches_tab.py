@@ -141,11 +141,11 @@ class BranchesTab(Tab):
         cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))
         for at, text in zip(_COLUMNS, cells, strict=False):
             theme.text(surface, text, right - at, y + 3, size=SMALL)
-        words, ahead = self._difference(branch)
+        words, ahead = self.difference(branch)
         colour = palette.good if ahead > 0 else palette.bad if ahead < 0 else palette.text
         theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
 
-    def _difference(self, branch: Branch) -> tuple[str, int]:
+    def difference(self, branch: Branch) -> tuple[str, int]:
         """The ticks by which a branch is shorter or longer than the run, as text."""
         end, outcome = self.editor.session.timeline.end
         if branch.track.inputs == self.editor.track.inputs:

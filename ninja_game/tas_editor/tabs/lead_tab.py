@@ -44,15 +44,15 @@ class LeadTab(Tab):
         self._opened = editor.track
         self._requested: Pair | None = None
         self._unchanged_ms = 0
-        self._job: NewestJob[_Job, tuple[Pair, LeadTable | str]] = NewestJob(compared_pair)
-        self._choice = Choice(
+        self.job: NewestJob[_Job, tuple[Pair, LeadTable | str]] = NewestJob(compared_pair)
+        self.choice = Choice(
             UNPLACED, "", self._options(), self._theirs, self._put, hint="The run that this one is compared to"
         )
         self.list = Rows(self._draw_row, self._go, keeps=False, hint="A click puts the cursor there")
-        self.widgets = [self._choice, self.list]
+        self.widgets = [self.choice, self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        self._choice.area = x + 56, y + 4, w - 60, 18
+        self.choice.area = x + 56, y + 4, w - 60, 18
         self.list.area = x + 4, y + 53, w - 8, h - 55
 
     def _options(self) -> list[tuple[str, object]]:
@@ -83,8 +83,8 @@ class LeadTab(Tab):
     def update(self, real_ms: int) -> None:
         if self.editor.tab != self.name and not self.editor.others:
             return
-        self._choice.options = self._options()
-        if self._theirs() not in {track for _, track in self._choice.options}:
+        self.choice.options = self._options()
+        if self._theirs() not in {track for _, track in self.choice.options}:
             self.editor.against = None
         pair = self._pair
         if pair != self._requested:
@@ -94,19 +94,19 @@ class LeadTab(Tab):
             if self._unchanged_ms >= PAUSE_MS:
                 session = self.editor.session
                 ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
-                self._job.ask((pair, ours, theirs, pair[0].markers))
+                self.job.ask((pair, ours, theirs, pair[0].markers))
         table = self.table
         self.list.fill(table.rows if table else ())
         self.editor.leads = table.leads if table and self.editor.others and self.is_current else {}
 
     @property
     def table(self) -> LeadTable | None:
-        result = self._job.result
+        result = self.job.result
         return result[1] if result is not None and isinstance(result[1], LeadTable) else None
 
     @property
     def is_current(self) -> bool:
-        return self._job.result is not None and self._job.result[0] == self._pair
+        return self.job.result is not None and self.job.result[0] == self._pair
 
     def _go(self, index: int) -> None:
         if self.table is not None:
@@ -114,9 +114,9 @@ class LeadTab(Tab):
 
     @property
     def summary(self) -> str:
-        if not self.is_current or self._job.result is None:
-            return self._job.problem or "comparing ..."
-        table = self._job.result[1]
+        if not self.is_current or self.job.result is None:
+            return self.job.problem or "comparing ..."
+        table = self.job.result[1]
         if isinstance(table, str):
             return table
         keys, place = table.comparison.first_keys, table.comparison.first_place
@@ -135,7 +135,7 @@ class LeadTab(Tab):
 
     def render_key(self) -> tuple[object, ...]:
         rows = self.table and self.table.rows
-        return self._choice.options, self._theirs(), self.summary, rows, self.editor.cursor, self.list.over
+        return self.choice.options, self._theirs(), self.summary, rows, self.editor.cursor, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -104,9 +104,9 @@ class SearchTab(Tab):
         selected = Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL)
         presets = Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with")
         hint = "Best is what reaches the goal first, or has the most or least of the value beside this"
-        order = Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._set_order, hint=hint)
+        order = Choice(UNPLACED, "", _ORDERS, lambda: self.order, self.set_order, hint=hint)
         hint = "What follows the goal in the run is played, too, and must still reach the exit"
-        rest = Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._set_rest, hint=hint)
+        rest = Choice(UNPLACED, "", _RESTS, lambda: self.rest, self.set_rest, hint=hint)
         hint = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
         method = Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method, hint=hint)
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
@@ -211,11 +211,11 @@ class SearchTab(Tab):
         if old in IMPROVES and method not in IMPROVES:
             self.use_selection()
 
-    def _set_order(self, order: str) -> None:
+    def set_order(self, order: str) -> None:
         self.order = order
         self.rest = self.rest and order == EARLIEST
 
-    def _set_rest(self, rest: bool) -> None:
+    def set_rest(self, rest: bool) -> None:
         self.rest = rest
         self.order = EARLIEST if rest else self.order
 

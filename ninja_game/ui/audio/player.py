@@ -64,7 +64,7 @@ class AudioPlayer(AudioOutput):
         self.folder = folder
         self.volume = self.effects_volume = self.loop_volume = LOUDEST
         self.music_volume = 0
-        self._music = Music(folder / "music", len(LOOPS))
+        self.soundtrack = Music(folder / "music", len(LOOPS))
         self._variants = Variants()
         self._gold_pitches = GoldPitches(len(PING))
         self._steps = Footsteps()
@@ -99,11 +99,11 @@ class AudioPlayer(AudioOutput):
             self.play(self._variants.choose(STEPS), x=world.ninja.x, level=step)
         for name, level in loop_levels(world, self._machines).items():
             self._loop(name, level)
-        self._music.levels = music_levels(world, self._hunters)
+        self.soundtrack.levels = music_levels(world, self._hunters)
 
     def music(self, name: str, real_ms: int) -> None:
         if self.works and self.volume and self.music_volume:
-            self._music.update(name, self.volume * self.music_volume / LOUDEST**2, real_ms)
+            self.soundtrack.update(name, self.volume * self.music_volume / LOUDEST**2, real_ms)
 
     def corpse(self, speed: float) -> None:
         """A part of the corpse hit something, at ``speed`` px/tick into it (presentation.md §4)."""
@@ -113,7 +113,7 @@ class AudioPlayer(AudioOutput):
             self.play(self._variants.choose(names))
 
     def quiet(self) -> None:
-        self._music.levels = CALM
+        self.soundtrack.levels = CALM
         if self.works:
             for number in range(CHANNELS):
                 if not 0 <= number - len(LOOPS) < len(LAYERS):
@@ -122,7 +122,7 @@ class AudioPlayer(AudioOutput):
     def close(self) -> None:
         """Stop reading. Called by ``pygame.quit`` and at the program's end, before the device is closed."""
         self._closed = True
-        self._music.close()
+        self.soundtrack.close()
         if self._reader:
             self._reader.join()
 
@@ -142,7 +142,7 @@ class AudioPlayer(AudioOutput):
         if not volume:
             self.quiet()
         if self.works and not (volume and music_volume):
-            self._music.silence()
+            self.soundtrack.silence()
 
     def _loop(self, name: str, level: float) -> None:
         """Play a loop at this share of its loudness; 0 ends it. Each loop has its own channel."""

@@ -22,7 +22,7 @@ from ninja_game.web.pages.frame import GAME_PAGE, MARK as PAGES_MARK, REPLAYS
 from ninja_game.web.pages.gallery import page_name, picture_name
 from ninja_game.web.site import game_archive as archive
 
-_MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it
+SITE_MARK = "ninja-game-site.json"  # marks a folder that the build wrote, with the names of the files in it
 
 ICONS = {"icons/64.png": (64, 1 / 6), "icons/192.png": (192, 1 / 6), "icons/512.png": (512, 1 / 6)}
 MASKABLE = "icons/maskable-512.png"  # an icon that systems crop to their own shape: its corners are empty
@@ -63,7 +63,7 @@ def build_site(out: Path, pyodide: Path | None, cache: Path, address: str = "") 
     site = Tree(out)
     for name, content in files.items():
         site.write(name, content)
-    site.write(_MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
+    site.write(SITE_MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
     gone = before - set(files)
     for name in gone:
         site.remove(name)
@@ -79,7 +79,7 @@ def _own_files(out: Path) -> set[str]:
         return set()
     hint = "name a new folder, or remove that one yourself"
     try:
-        names = json.loads(read_utf8(out / _MARK))["files"]
+        names = json.loads(read_utf8(out / SITE_MARK))["files"]
     except (OSError, *DAMAGED):
         raise FileError(
             "this is not a site of ninja-game", str(out), expected="a new or empty folder", hint=hint

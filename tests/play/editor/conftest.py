@@ -25,7 +25,7 @@ def driver(tmp_path: Path) -> Iterator[Maker]:
     try:
         yield made
     finally:
-        for screen in made.app.stack._screens:
+        for screen in made.app.stack.screens:
             if isinstance(screen, EditorScreen):
                 screen.session.certifier.stop()
                 screen.session.close()

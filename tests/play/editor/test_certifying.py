@@ -70,6 +70,7 @@ def test_searches_of_levels_that_were_left_go_on_one_after_the_other(
     session, levels = room.editor.session, tmp_path / "levels"
     room.chord("s", pygame.KMOD_LCTRL)
     room.press("f7")
+    room.wait(lambda: at_once, "the first search")
     assert session.certifier.text.startswith(("Loading the solver: ", "Compiling the solver, "))
     room.chord("n", pygame.KMOD_LCTRL)
     room.choose("A room")
@@ -219,7 +220,7 @@ def test_a_search_goes_on_with_the_changed_level_once_that_has_rested(
 def test_after_a_change_the_runs_known_before_are_tried_first(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tasks = list[Task]()
     certifier = Certifier(solver := Solver())
-    monkeypatch.setattr(solver.job, "ask", solver._work)
+    monkeypatch.setattr(solver.job, "ask", solver.work)
     monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
     monkeypatch.setattr("ninja_game.search.solve.solve", lambda task, **_: tasks.append(task))
     level = load_levels(root / "levels" / "00-0-first-steps.txt")[0].level
@@ -291,7 +292,7 @@ def test_what_is_stopped_while_it_fails_stays_stopped(monkeypatch: pytest.Monkey
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     certifier.start(ROOM.level)
     with pytest.raises(MemoryError):
-        solver._work(certifier.certification)
+        solver.work(certifier.certification)
     assert (certifier.text, certifier.certification.failed) == ("Stopped", False)
 
 

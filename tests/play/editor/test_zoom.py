@@ -52,7 +52,7 @@ class Looker:
         self.room.frames(1)
         area, nothing = self.view.overlay.area, (0, 0, 0)
         before = self.room.app.surface.subsurface(area).copy()
-        self.view._laid_out = ()
+        self.view.repaint()
         self.room.frames(1)
         now = self.room.app.surface.subsurface(area)
         same = pygame.mask.from_threshold(before, nothing, (24, 24, 24, 255), now).count()
@@ -203,7 +203,7 @@ def test_a_level_that_is_moved_keeps_what_was_drawn_and_draws_the_rest(near: Loo
 def test_a_path_is_seen_wherever_the_level_was_enlarged(near: Looker) -> None:
     near.view.camera.move(near.view.overlay.area.size, -900, -900)
     near.room.editor.session.playtests.last_route = tuple((700.0 - k, 560.0) for k in range(200))
-    near.view._laid_out = ()
+    near.view.repaint()
     near.room.frames(1)
     assert near.room.app.surface.get_at(near.px((650, 560)))[:3] == near.room.app.theme.palette.ghost[:3]
 

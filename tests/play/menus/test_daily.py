@@ -57,7 +57,7 @@ def opened(driver: MenuDriver) -> DailyScreen:
     """The screen, when nothing is being made any more."""
     screen = driver.opened("Daily", DailyScreen)
     end = monotonic() + LONGEST
-    while screen._maker and monotonic() < end:
+    while screen.maker and monotonic() < end:
         sleep(0.02)
         driver.frames(1)
     return screen
@@ -98,16 +98,16 @@ def test_the_days_that_come_with_the_game_need_no_compiler(driver: MenuDriver, m
 
 
 def test_a_hundred_weeks_of_days_come_with_the_game(tmp_path: Path) -> None:
-    last = daily._FIRST + timedelta(weeks=100, days=-1)
+    last = daily.FIRST_DAY + timedelta(weeks=100, days=-1)
     seen = set()
-    for day in (daily._FIRST, daily._FIRST + timedelta(1), daily._FIRST + timedelta(7), last):
+    for day in (daily.FIRST_DAY, daily.FIRST_DAY + timedelta(1), daily.FIRST_DAY + timedelta(7), last):
         assert daily.take_packed(tmp_path, day)
         found = read_pack_certificate(Pack(tmp_path / DAILY), f"{day}.txt", "exit")
         assert found is not None
         assert found.problems == []
         seen.add(level_digest(found.level))
     assert len(seen) == 4
-    assert not daily.take_packed(tmp_path, daily._FIRST - timedelta(1))
+    assert not daily.take_packed(tmp_path, daily.FIRST_DAY - timedelta(1))
     assert not daily.take_packed(tmp_path, last + timedelta(1))
 
 
@@ -139,7 +139,7 @@ def test_leaving_gives_up_what_is_made(driver: MenuDriver, monkeypatch: pytest.M
 
     monkeypatch.setattr(daily, "make_daily", slow)
     screen = driver.opened("Daily", DailyScreen)
-    assert screen._maker is not None
+    assert screen.maker is not None
     driver.press("escape")
     assert stopped.wait(15), "it is not told that nobody waits for it"
     driver.frames(2)

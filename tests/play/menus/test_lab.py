@@ -357,13 +357,13 @@ def test_drones_walk_as_in_the_game_and_react_to_doors() -> None:
         figure.tick()
         plain.step()
     assert world_digest(plain.world) == world_digest(figure.stage.world)
-    for o in figure._of_kind(DRONE):
+    for o in figure.of_kind(DRONE):
         tried = figure.tried(o)
         assert tried[-1][1] == 0, "it goes where the edge is off"
         assert all(state for _, state in tried[:-1])
-    inside = figure._of_kind(DRONE)[1]
+    inside = figure.of_kind(DRONE)[1]
     assert 72 < inside.x < 264
-    for door in figure._of_kind(DOOR):
+    for door in figure.of_kind(DOOR):
         figure.press(24 * (door.edge_1 // 4 % STRIDE - 1) + 12, 24 * (door.edge_1 // 4 // STRIDE - 1) + 12)
     assert numbers(figure)["doors open"] == "2 of 2"
     for _ in range(600):

@@ -313,7 +313,7 @@ def test_making_ready_is_stopped(desk: Desk, monkeypatch: pytest.MonkeyPatch) ->
     assert drawn(desk.app).count("text 'stopped' at") == 1, "the others are certified"
     desk.choose("Make ready")
     desk.app.run(1)
-    desk.wait(lambda: screen.packer._job.is_idle, "it ends with the program")
+    desk.wait(lambda: screen.packer.job.is_idle, "it ends with the program")
     screen.packer.update()
     with patch("ninja_game.play.menus.packer.Pack") as read:
         desk.app.run(1)

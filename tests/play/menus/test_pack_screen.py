@@ -659,5 +659,5 @@ def test_the_editor_leads_to_the_packs_and_edits_what_is_opened_there(
     page.problems = [Problem("01-0: odd", go=lambda: shown.edit(shown.levels()[5], None))]
     desk.choose("Go there")
     assert desk.top() is editor
-    assert not [other for other in desk.app.stack._screens if isinstance(other, ProblemsScreen)]
+    assert not [other for other in desk.app.stack.screens if isinstance(other, ProblemsScreen)]
     editor.session.close()

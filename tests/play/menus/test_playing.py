@@ -40,16 +40,16 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert best is not None
     assert best.score == passed.run.score
     driver.frames(3)
-    passed._episodes()
+    driver.choose("Episodes")
     assert isinstance(driver.top(), EpisodeGrid)
     assert len(driver.app.stack) == 2, "that from which it was opened"
     driver.app.push(EpisodePassed(driver.app, passed.run, passed._play))
-    driver.app.stack._screens.pop(1)
-    driver.shown(EpisodePassed)._episodes()
+    driver.app.stack.screens.pop(1)
+    driver.choose("Episodes")
     assert isinstance(driver.top(), EpisodeGrid), "whatever it was opened from"
     assert len(driver.app.stack) == 2
     driver.app.push(passed)
-    driver.press("down", "return")
+    driver.choose("Watch the run")
     assert isinstance(driver.top(), ReplayScreen)
     driver.press("escape", "up", "return")
     following = driver.shown(LevelScreen)

@@ -212,7 +212,7 @@ def test_reduced_motion_has_none_of_it(driver: MenuDriver) -> None:
     assert not level.play.view.ghosts
     level.go_on()
     driver.frames(1)
-    assert driver.app.wipe._before is None
+    assert driver.app.wipe.before is None
 
 
 def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
@@ -228,7 +228,7 @@ def test_wipe_shows_both_pictures_and_delays_no_key(driver: MenuDriver) -> None:
     level.begin()
     driver.keys.script = [2] * 4
     driver.frames(4)
-    assert driver.app.wipe._before is not None
+    assert driver.app.wipe.before is not None
     assert bytes(level.attempt.inputs) == b"\2\2\2\2"
 
 
@@ -295,13 +295,13 @@ def test_explosion_shakes_the_picture_as_much_as_is_wished(driver: MenuDriver, s
     level.begin()
     driver.keys.script = [2] * 60
     until(driver, level, MINE_EXPLODED)
-    assert (level.play.view._shake > 0) is bool(shake)
+    assert (level.play.view.shake > 0) is bool(shake)
     pictures = []
     for _ in range(2):
         driver.app.stack.redraw_all()
         driver.frames(1, ms=0)
         pictures.append(picture(driver))
-        level.play.view._shake = 0.0
+        level.play.view.shake = 0.0
     assert (pictures[0] != pictures[1]) is bool(shake)
 
 

@@ -79,8 +79,8 @@ def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: TasDriver, 
     assert abs(layout.roll[0] - moved.roll[0] - 100) < 12
     at.drag((100, y), (100, y + 30))
     assert abs(moved.tabs[3] - at.screen.splitters.layout.tabs[3] - 30) < 10
-    assert at.screen.level._paths
-    assert at.screen.level._paths.canvas is at.screen.level.picture.canvas
+    assert at.screen.level.paths
+    assert at.screen.level.paths.canvas is at.screen.level.picture.canvas
     rows = at.screen.roll.layout.rows
     at.chord("minus", pygame.KMOD_LCTRL)
     assert at.screen.roll.layout.rows > rows

@@ -131,13 +131,13 @@ def test_comparing_opens_the_lead_over_the_branch(at: TasDriver, tab: BranchesTa
 
 def test_differences_are_reported_between_runs_to_the_exit(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
-    assert tab._difference(tab.branches.all[0]) == ("the same", 0)
+    assert tab.difference(tab.branches.all[0]) == ("the same", 0)
     at.editor.edit(lambda track: track.named(5, "hop"))
     with patch.object(Theme, "text") as drawn:
         row_area = 0.0, 0.0, 400.0, 18.0
         tab._draw_row(pygame.Surface((400, 40)), at.editor.theme, 0, row_area, False)
     assert drawn.call_args_list[0].args[1] == tab.branches.all[0].name, "not changed since: a marker is no key"
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
-    assert tab._difference(tab.branches.all[0]) == ("3 shorter", 3)
+    assert tab.difference(tab.branches.all[0]) == ("3 shorter", 3)
     at.editor.edit(lambda track: track.replaced(10, len(track), []))
-    assert tab._difference(tab.branches.all[0]) == ("", 0)
+    assert tab.difference(tab.branches.all[0]) == ("", 0)

@@ -63,7 +63,7 @@ def test_edits_are_compared_only_after_a_pause(at: TasDriver, tab: LeadTab) -> N
     for _ in range(PAUSE_MS // 25 + 4):
         at.editor.edit(lambda track: track.replaced(0, 0, [0]))
         at.frames()
-    assert tab._job.is_idle
+    assert tab.job.is_idle
     assert tab.table is table
     compared(at, tab)
     assert tab.table is not table
@@ -74,9 +74,9 @@ def test_the_other_run_is_chosen(at: TasDriver, tab: LeadTab) -> None:
     at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
     at.session.keep_branch("late")
     at.frames()
-    names = [name for name, _ in tab._choice.options]
+    names = [name for name, _ in tab.choice.options]
     assert names == ["the run as it was opened", "branch: late"], "what was saved is the same as what was opened"
-    x, y = tab._choice.centre
+    x, y = tab.choice.centre
     at.mouse(x, y)
     assert at.editor.against == at.editor.track
     at.session.change(opened)

@@ -200,11 +200,11 @@ def test_names_of_ghosts_lie_over_no_ninja_and_no_name(at: TasDriver, zoom: int)
     camera, size = screen.level.picture.camera, screen.level.picture.surface.get_size()
     camera.zoom_at(size, screen.level.picture.canvas.point(*screen.level.picture.place(1.0)), zoom)
     at.frames(2)
-    over = screen.level._paths
+    over = screen.level.paths
     assert over is not None
     x, y = screen.level.picture.place(1.0)
-    ninja, names = over.canvas.rect(x - 10, y - 10, 20, 20), over._labels[-3:]
-    assert len(over._labels) == 2 * len(at.editor.track.markers) + 3
+    ninja, names = over.canvas.rect(x - 10, y - 10, 20, 20), over.labels[-3:]
+    assert len(over.labels) == 2 * len(at.editor.track.markers) + 3
     for number, name in enumerate(names):
         assert name.collidelist([ninja, *names[:number]]) < 0
         assert name.bottom <= ninja.top
@@ -534,9 +534,9 @@ def test_names_do_not_lie_on_each_other(at: TasDriver) -> None:
     screen.editor.edit(lambda track: track.named(100, "here"))
     screen.editor.go(100)
     at.frames(2)
-    paths = screen.level._paths
+    paths = screen.level.paths
     assert paths is not None
-    labels = paths._labels
+    labels = paths.labels
     assert len(labels) == 5, "a flag, its name, three runs"
     assert all(label.collidelist([each for each in labels if each is not label]) < 0 for label in labels)
     _, y = screen.level.picture.canvas.point(*at.session.timeline.positions[100])

@@ -38,7 +38,7 @@ def loaded(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
 def opened(at: MenuDriver) -> None:
     """Let pictures pass until the TAS editor is there, or refused."""
     screen = at.shown(OpeningScreen)
-    screen._thread.join(60)
+    screen.thread.join(60)
     at.frames(2)
 
 

@@ -134,18 +134,18 @@ def test_markers_are_named_found_and_dropped(at: TasDriver) -> None:
         assert at.editor.cursor == tick
     at.screen.roll.edits.go_to("nowhere")
     assert "nowhere" in at.app.notice
-    at.screen.roll.edits._name(15, "door")
+    at.screen.roll.edits.put_name(15, "door")
     assert at.editor.track.markers == (Marker(15, "door"),)
     assert "moved here from tick 40" in at.app.notice
     at.chord("z", CTRL)
-    at.screen.roll.edits._name(15, "a\tb")
+    at.screen.roll.edits.put_name(15, "a\tb")
     assert "not a marker" in at.app.notice
-    at.screen.roll.edits._name(15, "")
+    at.screen.roll.edits.put_name(15, "")
     assert at.editor.track.markers == (Marker(40, "door"),)
     at.chord("z", CTRL)
     assert at.editor.cursor == 15, "undo shows the name that comes back"
     at.editor.edit(lambda track: track.named(30, "the 'way'"))
-    at.screen.roll.edits._name(15, 'the "way"')
+    at.screen.roll.edits.put_name(15, 'the "way"')
     assert "moved here from tick 30" in at.app.notice, "quotes are written as others"
 
 

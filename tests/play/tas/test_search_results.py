@@ -261,7 +261,7 @@ def test_beside_a_faster_run_the_own_route_stays_in_the_list(at: TasDriver, tab:
     assert at.editor.track == slow
     beside = replace(own, inputs=fast.inputs[: own.ticks], own_route=False)
     assert results.words(beside)[0].endswith(", this is Cy")
-    assert results._contributions(beside) == at.editor.others[0].made
+    assert results.contributions(beside) == at.editor.others[0].made
     results.search.results = replace(beside, score=own.score - 1, path=own.path + 99), own
     at.frames(2)
     assert [each.own_route for each in tab.better] == [True, False], "what is known already comes last"
@@ -289,8 +289,8 @@ def test_a_span_is_searched_along_runs_beside_and_names_their_players_where_they
     theirs = replace(own, own_route=False)
     assert "route" not in results.words(own)[0]
     assert results.words(theirs)[0].endswith(", like Cy")
-    assert "Cy" in results._contributions(theirs).names
-    assert "Cy" not in results._contributions(own).names
+    assert "Cy" in results.contributions(theirs).names
+    assert "Cy" not in results.contributions(own).names
 
 
 def test_a_speed_of_two_digits_has_room(at: TasDriver) -> None:

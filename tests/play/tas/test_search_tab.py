@@ -161,10 +161,10 @@ def test_what_is_wrong_is_reported(at: TasDriver, tab: SearchTab) -> None:
 
 
 def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: TasDriver, tab: SearchTab) -> None:
-    tab._set_order("smallest")
-    tab._set_rest(True)
+    tab.set_order("smallest")
+    tab.set_rest(True)
     assert (tab.order, tab.task.measure) == ("earliest", "")
-    tab._set_order("greatest")
+    tab.set_order("greatest")
     assert not tab.rest
     assert tab.task.measure == "speed"
 

@@ -32,7 +32,7 @@ def random_keys(count: int) -> list[int]:
 
 
 def test_what_is_pressed_is_what_is_recorded_and_it_is_one_edit(at: TasDriver) -> None:
-    before, edits = at.editor.track, len(at.session.history._done)
+    before, edits = at.editor.track, len(at.session.history.done)
     taken = take_over(at)
     at.frames(5)
     assert at.editor.cursor == START, "it waits for the first key"
@@ -48,7 +48,7 @@ def test_what_is_pressed_is_what_is_recorded_and_it_is_one_edit(at: TasDriver) -
     assert at.top() is at.screen
     inputs = with_press_bits(k & 7 for k in at.editor.track.inputs[: START + 51])
     assert at.editor.track.inputs[START + 1 : START + 51] == inputs[START + 1 :]
-    assert len(at.session.history._done) == edits + 1
+    assert len(at.session.history.done) == edits + 1
     assert at.session.timeline.is_complete
     at.chord("z", pygame.KMOD_LCTRL)
     assert at.editor.track == before
