@@ -8,6 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from ninja_game.editor.bench import TAKES
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.examination import UNREACHABLE_CODES
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source
@@ -15,7 +17,6 @@ from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
 from ninja_game.editor.palette import SNAPS
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
-from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
@@ -104,9 +105,9 @@ class EditorCommands(DocumentCommands):
 
     def run(self, name: str) -> None:
         tools = self.session.tools
-        if name in TOOLS:
+        if name in list(Tool):
             tools.finish()
-            tools.tool = name
+            tools.tool = Tool(name)
         elif steps := self._steps().get(name):
             steps.actions[next_option(list(steps.actions), steps.now)]()
         else:
@@ -117,7 +118,7 @@ class EditorCommands(DocumentCommands):
         tools, view, brush = self.session.tools, self.view, self.session.tools.brush
         mirror = _MIRRORS[brush.symmetry]
         return {
-            "next_tool": Choices({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
+            "next_tool": Choices({tool: partial(self.run, tool) for tool in Tool}, tools.tool),
             "takes": Choices({what: partial(tools.take, what) for what in TAKES}, tools.takes),
             "symmetry": Choices({_MIRRORS[name]: partial(self.mirror, name) for name in _MIRRORS}, mirror),
             "grid": Choices({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
@@ -234,7 +235,7 @@ class EditorCommands(DocumentCommands):
         records = [number for number in finding.records if number < len(tools.draft.objects)]
         tools.choose(frozenset((n, part) for n in records for part in points(tools.draft.objects[n])))
         if records:
-            tools.tool = "select"
+            tools.tool = Tool.SELECT
         if places:
             tools.pointer = places[0]
             self.view.follow(*places[0])
@@ -314,8 +315,8 @@ class EditorCommands(DocumentCommands):
         view, tools = self.view, self.session.tools
         if view.take(None) or tools.cancel():
             return
-        if tools.tool not in (TOOLS[0], "select"):
-            tools.tool = TOOLS[0]
+        if tools.tool not in (Tool.BRUSH, Tool.SELECT):
+            tools.tool = Tool.BRUSH
         elif view.offers_menu:
             view.hint = ""
             self.file_menu()

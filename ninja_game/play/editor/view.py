@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.playtests import PathPoints, PlaytestMap
@@ -154,7 +155,7 @@ class Overlay:
         if ghost := tools.pasted:
             self._ghost(ghost, empty=tools.pastes_empty)
             return
-        draws = tools.effective_tool not in ("select", "pick")
+        draws = tools.effective_tool.draws
         motions = (Motion(), *(SYMMETRIES[tools.brush.symmetry] if draws else ()))
         if not draws:
             target = tools.near(PICK_REACH)
@@ -275,7 +276,7 @@ class EditorView(Pane):
     def message(self) -> int | None:
         """The number of the selected message."""
         tools, number = self.session.tools, self._message
-        selects = tools.tool == "select" and not tools.selection
+        selects = tools.tool == Tool.SELECT and not tools.selection
         return number if selects and number in message_places(tools.draft).values() else None
 
     def _layout_key(self) -> tuple[object, ...]:
@@ -339,7 +340,7 @@ class EditorView(Pane):
             if erase or (is_inside(cell) and not pick):
                 self.take(None if erase else cell)
             return
-        free = tools.tool == "select" and not (erase or pick or tools.ghost or tools.near(PICK_REACH))
+        free = tools.tool == Tool.SELECT and not (erase or pick or tools.ghost or tools.near(PICK_REACH))
         self._message = message_near(tools.draft, *tools.pointer) if free else None
         before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
         self._pressed = Press(cell, now, tools.draft)

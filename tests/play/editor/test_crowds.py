@@ -3,6 +3,7 @@
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import Source
 from ninja_game.editor.palette import OBJECT_TYPES, placed
 from ninja_game.editor.specs import BODY_PART, points
@@ -51,7 +52,7 @@ def test_what_is_dragged_goes_to_the_last_place_of_the_mouse(room: Maker) -> Non
     room.editor.session.begin(Source(with_stamp(ROOM, Stamp({}, CROWD))))
     room.frames(3)
     tools = room.editor.session.tools
-    tools.tool, tools.brush.snap = "select", "px"
+    tools.tool, tools.brush.snap = Tool.SELECT, "px"
     tools.selection = Selection(None, frozenset((n, BODY_PART) for n in range(len(tools.draft.objects))))
     before = [points(spec)[BODY_PART] for spec in tools.draft.objects]
     x, y = before[100]

@@ -12,6 +12,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.document import History
 from ninja_game.editor import packs
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.examination import Examined
 from ninja_game.editor.files import Source, new_source, open_source
@@ -99,11 +100,11 @@ def test_keys_choose_draw_and_place(room: Maker) -> None:
     assert room.draft.objects[-1].values[2] == 2.0
     room.press("v", "space")
     room.chord("left", pygame.KMOD_LSHIFT)
-    assert tools.chosen
-    x = tools.chosen.values[0]
+    assert tools.selected.chosen
+    x = tools.selected.chosen.values[0]
     room.press("w")
-    assert tools.chosen.values[2] == 3.0
-    assert tools.chosen.values[0] == x
+    assert tools.selected.chosen.values[2] == 3.0
+    assert tools.selected.chosen.values[0] == x
     room.press("delete")
     assert len(room.draft.objects) == 2
 
@@ -219,7 +220,7 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     assert (len(playtests.shown), playtests.last_deaths) == (2, (died,)), "those of the level with the mine"
     tools = session.tools
     tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY_PART)}))
-    tools.nudge(-1, 0)
+    tools.selected.nudge(-1, 0)
     session.add_playtest(session.draft.level, bytes([2] * 20), over=True)
     assert len([*session.playtests.shown]) == 1, "a test in the picture of the change is of the changed level alone"
     session.begin(Source(ROOM))
@@ -497,7 +498,7 @@ def test_a_ninja_far_away_leaves_no_route(room: Maker) -> None:
 
 def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     tools = room.editor.session.tools
-    tools.tool, tools.brush.draws_objects = "fill", False
+    tools.tool, tools.brush.draws_objects = Tool.FILL, False
     assert tools.effective_tool == "fill"
     before = len(room.draft.objects)
     tools.pick_up(object_of_type("locked door"))
@@ -789,11 +790,11 @@ def test_what_is_pasted_has_its_buttons_and_esc_leads_back_to_what_was_selected(
     room.choose("Mirror")
     assert tools.ghost not in (None, before_turn)
     room.press("escape")
-    assert (bool(tools.ghost), tools.selection, tools.tool) == (False, before, "select")
+    assert (bool(tools.ghost), tools.selection, tools.tool) == (False, before, Tool.SELECT)
 
 
 def test_a_fill_with_objects_is_seen_before_the_click(room: Maker) -> None:
-    room.editor.session.tools.tool = "rectangle"
+    room.editor.session.tools.tool = Tool.RECTANGLE
     room.drag((200, 200), (300, 300))
     room.press("0")
     room.drag((225, 225), (275, 275))
@@ -842,7 +843,7 @@ def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> Non
     maker.open("Editor")
     tools = maker.editor.session.tools
     maker.press("shift+g")
-    tools.tool = "ellipse"
+    tools.tool = Tool.ELLIPSE
     start = maker.app.canvas.point(*maker.at(200, 200))
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=start, rel=(0, 0), buttons=(0, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=start, button=1, touch=False))
@@ -863,7 +864,7 @@ def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> Non
 @pytest.mark.parametrize("how", ["key", "button"])
 def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str) -> None:
     tools = room.editor.session.tools
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     tools.selection = Selection((1, 22, 6, 2))
     room.frames(2)
     before = room.draft
@@ -1224,10 +1225,10 @@ def test_texts_of_the_buttons_above_the_level_have_room_at_both_ends(room: Maker
 
 def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     room.drag((60, 542))
     assert tools.selection
-    for tool, kept in (("select", "select"), ("rectangle", "brush")):
+    for tool, kept in ((Tool.SELECT, Tool.SELECT), (Tool.RECTANGLE, Tool.BRUSH)):
         left, tools.tool, view.hint = [], tool, ""
         for _ in range(2):
             room.press("escape")
@@ -1247,7 +1248,7 @@ def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
     tools, before = room.editor.session.tools, room.draft
     room.drag((60, 542))
     room.chord("z", pygame.KMOD_LCTRL)
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     room.drag((40, 530), (70, 560))
     room.chord("c", pygame.KMOD_LCTRL)
     room.chord("v", pygame.KMOD_LCTRL)
@@ -1325,7 +1326,7 @@ def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None
 def test_grey_buttons_that_align_say_why(room: Maker) -> None:
     tools = room.editor.session.tools
     every = [(number, part) for number, spec in enumerate(room.draft.objects) for part in points(spec)]
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     for text, why, enough in (("Left", "Align needs two", 2), ("Across", "Spread needs three", 3)):
         for count in (enough - 1, enough):
             tools.selection = Selection((2, 2, 3, 3), frozenset(every[:count]))
@@ -1398,7 +1399,7 @@ def test_a_clicked_bubble_is_shown_in_the_panel_from_which_it_opens(room: Maker)
 def test_flat_ends_of_a_bent_line_with_slopes_are_square(room: Maker, symmetry: str) -> None:
     tools = room.editor.session.tools
     room.editor.session.set_slopes(True)
-    tools.tool, tools.brush.symmetry = "line", symmetry
+    tools.tool, tools.brush.symmetry = Tool.LINE, symmetry
     tools.move(60, 480)
     tools.press()
     tools.move(340, 400)

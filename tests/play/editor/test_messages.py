@@ -12,6 +12,7 @@ import pygame
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.message_rows import DETAIL, TEXT, TIME, MessageRow
 from ninja_game.editor.playtests import lead_in, place_before
@@ -413,7 +414,7 @@ def test_a_frame_is_drawn_moved_and_sized_by_the_mouse_its_other_edges_stay(room
 
 def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> None:
     check_says(room, "at 12,12 8x3: One")
-    room.editor.session.tools.tool = "select"
+    room.editor.session.tools.tool = Tool.SELECT
     room.mouse(*room.at(12 * 24 + 12, 12 * 24 + 12), click=False)
     room.frames(2)
     accent = room.app.theme.palette.accent
