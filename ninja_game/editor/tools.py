@@ -1,4 +1,4 @@
-"""The tools of the level editor: what presses, moves and releases do, and the commands of the pointer's work.
+"""The tools of the level editor: what presses, moves and releases do, and the commands that end these.
 
 They know no window: points are px of the level.
 """

@@ -166,7 +166,7 @@ class EditorCommands(DocumentCommands):
 
         ``always``: even if nothing has changed.
         """
-        saved = self.session.source.path and self.session.is_saved
+        saved = self.session.edited.source.path and self.session.is_saved
         text = change_text(before, after)
         if text or always:
             self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
@@ -206,7 +206,7 @@ class EditorCommands(DocumentCommands):
 
     def switch_playtests(self) -> None:
         """Show or hide the paths and deaths of all playtests of the level as it is."""
-        view, count = self.view, len(self.session.playtests.shown)
+        view, count = self.view, len(self.session.edited.playtests.shown)
         view.playtest_map = not view.playtest_map
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         if not count:
@@ -215,8 +215,8 @@ class EditorCommands(DocumentCommands):
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
-        self.session.at_pointer.next_start()
-        asks = self.session.at_pointer.start != "off" and not self.view.hovering
+        self.session.edited.at_pointer.next_start()
+        asks = self.session.edited.at_pointer.start != "off" and not self.view.hovering
         self.view.hint = "Point at a place in the level: it is shown what the ninja reaches from there" if asks else ""
 
     def go_to_finding(self, index: int) -> None:
@@ -276,7 +276,7 @@ class EditorCommands(DocumentCommands):
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
-        last = [playtest.inputs for playtest in session.playtests.shown[-1:] if playtest.level == level]
+        last = [playtest.inputs for playtest in session.edited.playtests.shown[-1:] if playtest.level == level]
         runs = [session.certifying_inputs, *last, waits]
         with suppress(LevelError):  # without a ninja, which the playtest reports
             moments = ((run, appearances(messages, level, run)[number]) for run in filter(None, runs))
@@ -366,19 +366,20 @@ class EditorCommands(DocumentCommands):
 
     def own_path(self) -> Path | None:
         """The level's file, or a new path among the player's levels; None for a level without file and name."""
-        if self.session.source.path is None and not self.session.draft.name:
-            return None
-        return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
+        path, name = self.session.edited.source.path, self.session.draft.name
+        if path is None and name:
+            return free_path(self._levels, file_stem(name, "level"), SUFFIX)
+        return path
 
     def reload_rows(self, path: Path) -> list[MenuRow]:
-        if path != self.session.source.path or not path.exists():
+        if path != self.session.edited.source.path or not path.exists():
             return []
         return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
 
     def follow_file(self) -> None:
         """Load a level's file that another program has changed; ask first if there are unsaved changes."""
         session = self.session
-        saved, path = session.is_saved, session.source.path
+        saved, path = session.is_saved, session.edited.source.path
 
         def follow() -> None:
             source = session.edited.changed_source()
@@ -405,7 +406,7 @@ class EditorCommands(DocumentCommands):
 
         def on_accept(text: str) -> None:
             name = text.strip() or NAMELESS
-            folder = session.source.path.parent if session.source.path else self._levels
+            folder = session.edited.source.path.parent if session.edited.source.path else self._levels
             save = partial(session.save, name=name)
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then, save=save)
 

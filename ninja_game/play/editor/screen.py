@@ -88,8 +88,7 @@ class EditorScreen(WorkspaceScreen):
 
     def leave(self) -> None:
         super().leave()
-        self.session.certify_file()
-        self.session.edited.autosave.flush(self.session.tools.history, self.session.source)
+        self.session.leave()
 
     def capture(self, event: InputEvent) -> bool:
         """Enter ends what is typed, too."""

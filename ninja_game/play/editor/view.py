@@ -407,7 +407,7 @@ class EditorView(Pane):
 
     def render_key(self) -> tuple[object, ...]:
         """All that the overlay depends on; the sheet watches the level itself."""
-        tools, reach = self.session.tools, self.session.at_pointer.reach
+        tools, reach = self.session.tools, self.session.edited.at_pointer.reach
         return (
             tools.pointer, self.hovering, tools.tool, tools.brush.state, tools.ghost, tools.pastes_empty,
             tools.selection, tools.marquee, tools.placing_switch, tools.draft, self.message, reach and reach[1:],
@@ -430,14 +430,18 @@ class EditorView(Pane):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        reach = self.session.at_pointer.reach if self.hovering else None
+        reach = self.session.edited.at_pointer.reach if self.hovering else None
         spot = next((at for at, number in message_places(tools.draft).items() if number == self.message), None)
         return [*changed, *self.overlay.draw(surface, tools, reach, spot, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         session, palette, draft = self.session, self.app.theme.palette, self.session.draft
         certification, stale = session.certifier.certification, session.certifier.is_stale(draft.level)
-        playtests, examination, drone_round = session.playtests, session.examination, session.at_pointer.drone_round
+        playtests, examination, drone_round = (
+            session.edited.playtests,
+            session.edited.examination,
+            session.edited.at_pointer.drone_round,
+        )
         state = (
             draft.objects, self.lines, self.paths, playtests.last_route, certification.route, stale,
             examination.findings, session.tools.brush.symmetry, draft.says, self.playtest_map and playtests.map,

@@ -70,9 +70,9 @@ def test_what_is_dragged_goes_to_the_last_place_of_the_mouse(room: Maker) -> Non
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0), touch=False))
     room.frames()
     assert len(moves) == 2
-    checked = room.editor.session.examination.job.result
+    checked = room.editor.session.edited.examination.job.result
     room.frames(20)
-    assert room.editor.session.examination.job.result is checked, "problems are looked for when it is let go"
+    assert room.editor.session.edited.examination.job.result is checked, "problems are looked for when it is let go"
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=places[9], rel=(0, 0), buttons=(1, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=places[9], button=1, touch=False))
     room.frames()

@@ -171,8 +171,8 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
     assert tools.history._done == history
-    assert len(room.editor.session.playtests.last_route) == 20
-    assert room.editor.session.playtests.last_route[0] == (60.0, 542.0)
+    assert len(room.editor.session.edited.playtests.last_route) == 20
+    assert room.editor.session.edited.playtests.last_route[0] == (60.0, 542.0)
     room.mouse(*room.at(400, 100), click=False)
     room.press("f6")
     room.press("escape")
@@ -194,14 +194,14 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
         room.frames(70)
         room.press("r")
     room.press("escape")
-    session.playtests.maps.finish(LONGEST)
-    assert session.playtests.map
-    assert len(session.playtests.map.deaths) == 2
+    session.edited.playtests.maps.finish(LONGEST)
+    assert session.edited.playtests.map
+    assert len(session.edited.playtests.map.deaths) == 2
     room.frames()
-    died, _ = session.playtests.map.deaths
+    died, _ = session.edited.playtests.map.deaths
     assert 70 < died[0] < 100
-    assert session.playtests.map.visits == {(2, 22): 2, (3, 22): 2}
-    assert len(session.playtests.shown) == 2, "what is pressed after a death is no test"
+    assert session.edited.playtests.map.visits == {(2, 22): 2, (3, 22): 2}
+    assert len(session.edited.playtests.shown) == 2, "what is pressed after a death is no test"
     room.frames(2)
     x, y = room.app.canvas.point(*room.at(60, 500))
     assert room.app.surface.get_at((x, y)) == plain.get_at((x, y)), "nobody came there"
@@ -216,15 +216,16 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     assert not [key for key in marks if key[0] in ("visit", "death")], "the mine is gone"  # type: ignore[index]
     room.chord("y", pygame.KMOD_LCTRL)
     room.frames()
-    playtests = session.playtests
+    playtests = session.edited.playtests
     assert (len(playtests.shown), playtests.last_deaths) == (2, (died,)), "those of the level with the mine"
     tools = session.tools
     tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY_PART)}))
     tools.selected.nudge(-1, 0)
     session.add_playtest(session.draft.level, bytes([2] * 20), over=True)
-    assert len([*session.playtests.shown]) == 1, "a test in the picture of the change is of the changed level alone"
+    shown = [*session.edited.playtests.shown]
+    assert len(shown) == 1, "a test in the picture of the change is of the changed level alone"
     session.begin(Source(ROOM))
-    assert session.playtests.map is None
+    assert session.edited.playtests.map is None
 
 
 def test_a_test_that_passes_comes_back_by_confirming(room: Maker) -> None:
@@ -250,19 +251,19 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
     room.press("shift+h")
     room.drag((300, 564))
     session = room.editor.session
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
-    assert [finding.text for finding in session.examination.findings] == [
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
+    assert [finding.text for finding in session.edited.examination.findings] == [
         "it is inside a tile: its rockets explode at once"
     ]
     room.frames(2)
     assert [key for key in room.editor.view.sheet.marks if key[0] == "sign"]  # type: ignore[index]
     room.press("f4")
     assert session.tools.selection.parts == {(2, 0)}
-    assert "Move it, or clear the tile." in session.examination.findings[0].advice
+    assert "Move it, or clear the tile." in session.edited.examination.findings[0].advice
     assert room.editor.view.hint == "Problem 1 of 1: the list says how to fix it"
     room.press("delete")
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
-    assert not session.examination.findings
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
+    assert not session.edited.examination.findings
     room.press("f4")
     assert "No problems" in room.app.notice
 
@@ -336,7 +337,7 @@ def test_only_what_changed_is_drawn_again_and_it_is_the_same_picture(room: Maker
     room.drag((80, 80), (120, 140))
     room.chord("z", pygame.KMOD_LCTRL)
     session = room.editor.session
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
     room.frames(2)
     mended = room.app.surface.copy()
     view = room.editor.view
@@ -457,15 +458,15 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
     why = obstacle(level, 0, Progress(untouched=(exit_,)))
     session.certifier.certification = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
-    room.wait(lambda: session.examination.findings[:1] == [why], "the problem")
+    room.wait(lambda: session.edited.examination.findings[:1] == [why], "the problem")
     room.press("f4")
     assert why.advice.endswith("Make the way there easier, or give the solver more time.")
     assert room.editor.view.hint.startswith("Problem 1 of ")
     assert session.tools.pointer == (120.0, 540.0), "the switch"
     room.press("b")
     room.drag((300, 300))
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
-    assert why not in session.examination.findings, "of another level"
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
+    assert why not in session.edited.examination.findings, "of another level"
 
 
 def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlier_one(room: Maker) -> None:
@@ -474,7 +475,7 @@ def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlie
     address = id(lists[0])
 
     def key() -> object:
-        with patch.object(type(part.session.examination), "findings", lists[-1]):
+        with patch.object(type(part.session.edited.examination), "findings", lists[-1]):
             part.update(0)
         return part.render_key()
 
@@ -511,7 +512,7 @@ def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")
 def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> None:
     session = room.editor.session
-    at = session.at_pointer
+    at = session.edited.at_pointer
 
     def shown(x: float, y: float) -> Reach:
         room.mouse(*room.at(x, y), click=False)
@@ -734,7 +735,7 @@ def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     session.add_playtest(level, bytes([2] * 20), over=True)
     room.frames(2)
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
-    session.edited.source = replace(session.source, draft=session.draft)
+    session.edited.source = replace(session.edited.source, draft=session.draft)
     room.chord("n", pygame.KMOD_LCTRL)
     assert getattr(room.editor.properties.widgets[1], "text", "") not in FIRST_STEPS
     room.choose("Empty")
@@ -986,22 +987,22 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     session, drone = room.editor.session, object_of_type("zap drone")
     room.press("shift+z")
     room.mouse(*room.at(300, 540), click=False)
-    room.wait(lambda: session.at_pointer.drone_round, "the round of the drone in hand")
+    room.wait(lambda: session.edited.at_pointer.drone_round, "the round of the drone in hand")
     run = Simulation(with_stamp(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
     thing = next(each for each in run.world.objects if each.kind == DRONE)
-    for place in session.at_pointer.drone_round[:300]:
+    for place in session.edited.at_pointer.drone_round[:300]:
         run.step_keys(0)
         assert (thing.x, thing.y) == place
     room.frames()
     assert any(isinstance(key, tuple) and key[0] == "route" for key in room.editor.view.sheet.marks)
     room.press("grave")
     room.frames()
-    assert not session.at_pointer.drone_round
+    assert not session.edited.at_pointer.drone_round
     room.drag((300, 540))
-    assert not session.at_pointer.drone_round
+    assert not session.edited.at_pointer.drone_round
     session.tools.history.change(with_stamp(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
     session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY_PART)}))
-    room.wait(lambda: session.at_pointer.drone_round, "the round of the drone that is selected")
+    room.wait(lambda: session.edited.at_pointer.drone_round, "the round of the drone that is selected")
 
 
 def test_what_is_selected_is_kept_as_a_stamp_for_every_level(room: Maker, tmp_path: Path) -> None:
@@ -1099,7 +1100,7 @@ def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: 
     room.fill("Mine", "OK")
     room.chord("s", pygame.KMOD_LCTRL)
     assert isinstance(room.top(), EditorScreen)
-    assert room.editor.session.source.path == tmp_path / "levels" / "mine.txt"
+    assert room.editor.session.edited.source.path == tmp_path / "levels" / "mine.txt"
 
 
 def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
@@ -1181,8 +1182,8 @@ def test_the_panel_says_what_becomes_of_the_run(room: Maker, tmp_path: Path) -> 
 
 def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     session = room.editor.session
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
-    session.examination.job.result = Examined(
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
+    session.edited.examination.job.result = Examined(
         room.draft.level, [Finding("no-exit", "word " * 60), Finding("no-ninja", "none")]
     )
     room.frames(2)
@@ -1195,8 +1196,8 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
 
 def test_the_problem_that_f4_goes_to_is_in_sight_in_the_list(room: Maker) -> None:
     session = room.editor.session
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
-    session.examination.job.result = Examined(
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
+    session.edited.examination.job.result = Examined(
         room.draft.level, [Finding("no-exit", f"word {number}") for number in range(12)]
     )
     part = next(part for part in room.editor.parts if isinstance(part, Findings))
@@ -1314,13 +1315,13 @@ def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
 
 def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None:
     session = room.editor.session
-    room.wait(lambda: session.examination.level is room.draft.level, "findings")
+    room.wait(lambda: session.edited.examination.level is room.draft.level, "findings")
     session.begin(Source(with_stamp(Draft(Level()), Stamp({(3, 3): 1}))))
-    examination, reaches = session.examination, session.at_pointer.reaches
+    examination, reaches = session.edited.examination, session.edited.at_pointer.reaches
     assert (examination.level, reaches.result, examination.findings) == (None, None, [])
     room.press("f4")
     assert "No problems" not in room.app.notice
-    assert session.examination.level is room.draft.level
+    assert session.edited.examination.level is room.draft.level
 
 
 def test_grey_buttons_that_align_say_why(room: Maker) -> None:

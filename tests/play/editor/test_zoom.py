@@ -203,7 +203,7 @@ def test_a_level_that_is_moved_keeps_what_was_drawn_and_draws_the_rest(near: Loo
 
 def test_a_path_is_seen_wherever_the_level_was_enlarged(near: Looker) -> None:
     near.view.camera.move(near.view.overlay.area.size, -900, -900)
-    near.room.editor.session.playtests.last_route = tuple((700.0 - k, 560.0) for k in range(200))
+    near.room.editor.session.edited.playtests.last_route = tuple((700.0 - k, 560.0) for k in range(200))
     near.view._laid_out = ()
     near.room.frames(1)
     assert near.room.app.surface.get_at(near.px((650, 560)))[:3] == near.room.app.theme.palette.ghost[:3]
@@ -241,7 +241,7 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(
     near = Looker(room)
     near.view.show_grid(GRIDS[3])
     near.tools.brush.symmetry = "both"
-    room.editor.session.playtests.last_route = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
+    room.editor.session.edited.playtests.last_route = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
     if zoom == 4:
         near.view.zoom(1)
     # Signs come when the level has been examined.
