@@ -104,11 +104,11 @@ class EditorCommands(DocumentCommands):
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
-        tools = self.session.tools
+        steps = self._steps().get(name)
         if name in list(Tool):
-            tools.finish()
-            tools.tool = Tool(name)
-        elif steps := self._steps().get(name):
+            self.session.tools.finish()
+            self.session.tools.tool = Tool(name)
+        elif steps:
             steps.actions[next_option(list(steps.actions), steps.now)]()
         else:
             self._table()[name]()
@@ -152,12 +152,14 @@ class EditorCommands(DocumentCommands):
         }  # fmt: skip
 
     def undo(self) -> None:
-        before, tools = self.session.draft, self.session.tools
+        tools = self.session.tools
+        before = tools.draft
         is_done = tools.undo()
         self._tell_step("Undone" if is_done else "Nothing to undo", tools.draft, before, always=not is_done)
 
     def redo(self) -> None:
-        before, tools = self.session.draft, self.session.tools
+        tools = self.session.tools
+        before = tools.draft
         is_done = tools.redo()
         self._tell_step("Redone" if is_done else "Nothing to redo", before, tools.draft, always=not is_done)
 
@@ -169,11 +171,13 @@ class EditorCommands(DocumentCommands):
         saved = self.session.edited.source.path and self.session.is_saved
         text = change_text(before, after)
         if text or always:
-            self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
+            now = ". Now as saved" if text and saved else ""
+            self.view.hint = ": ".join(filter(None, (done, text))) + now
 
     def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
-        if steps := self._steps().get(name):
+        steps = self._steps().get(name)
+        if steps:
             rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in steps.actions.items()]
             self.app.push(DropDown(self.app, button, rows, at=list(steps.actions).index(steps.now)))
         else:
@@ -270,8 +274,9 @@ class EditorCommands(DocumentCommands):
 
         The way there is that of the known run, or of the last playtest; else it begins on a floor before the place.
         """
-        session, messages = self.session, parse_messages(says)
-        level, message = session.draft.level, messages[number] if messages else None
+        session, level = self.session, self.session.draft.level
+        messages = parse_messages(says)
+        message = messages[number] if messages else None
         if message is None or message.when in {"start", "death"}:
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
@@ -298,7 +303,8 @@ class EditorCommands(DocumentCommands):
             certifier.stop()
             self.app.notify(f"{'Stopped. ' if certifier.certification.run else ''}{certifier.text}", here=True)
             return
-        start, findings = partial(certifier.start, level), self.session.examine()
+        start = partial(certifier.start, level)
+        findings = self.session.examine()
         odd = [number for finding in findings if finding.code in UNREACHABLE_CODES for number in finding.records]
         if any(finding.code in ("no-ninja", "no-exit") for finding in findings):
             self.app.notify("Place a ninja and an exit with its switch first")
@@ -331,7 +337,8 @@ class EditorCommands(DocumentCommands):
                 self.playtest(self.session.tools.pointer)
 
         def ask() -> None:
-            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc cancels"
+            self.view.taker = playtest_at
+            self.view.hint = "Click where the ninja begins; Esc cancels"
 
         here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("playtest_here", *IN_MORE))
         choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
@@ -379,7 +386,8 @@ class EditorCommands(DocumentCommands):
     def follow_file(self) -> None:
         """Load a level's file that another program has changed; ask first if there are unsaved changes."""
         session = self.session
-        saved, path = session.is_saved, session.edited.source.path
+        saved = session.is_saved
+        path = session.edited.source.path
 
         def follow() -> None:
             source = session.edited.changed_source()
@@ -442,9 +450,13 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, inputs, test = self._entry(), lambda: self.session.certifying_inputs, self.playtest_message
+        entry = self._entry()
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
+
+        def inputs() -> bytes:
+            return self.session.certifying_inputs
+
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.playtest_message, mood, inputs, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""
