@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from enum import StrEnum, auto
 
 from ninja_game.editor import stamp as stamps
 from ninja_game.editor.draft import Draft, Tiles
@@ -24,8 +25,25 @@ from ninja_game.sim.kinds import DOOR, NINJA
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL
 
-CURVES = ("line", "ellipse")
-SHAPES = ("rectangle", *CURVES)
+
+class Tool(StrEnum):
+    """The tools of the editor, in the order of their buttons."""
+
+    BRUSH = auto()
+    RECTANGLE = auto()
+    LINE = auto()
+    ELLIPSE = auto()
+    FILL = auto()
+    SELECT = auto()
+    PICK = auto()
+
+    @property
+    def draws(self) -> bool:
+        return self not in (Tool.SELECT, Tool.PICK)
+
+
+CURVES = (Tool.LINE, Tool.ELLIPSE)
+SHAPES = (Tool.RECTANGLE, *CURVES)
 SPACINGS = (12.0, 16.0, 20.0, 24.0, 36.0, 48.0, 72.0)
 NEAREST = "nearest"  # doors go to the side nearest to the pointer
 
@@ -118,7 +136,7 @@ class Brush:
 
     def with_stroke(self, draft: Draft, start: Cell, end: Cell, tile: int, *, slopes: bool) -> Draft:
         """The draft with a straight part of a line that is drawn by hand."""
-        cells = stamps.covered("line", start, end, 0.0)
+        cells = stamps.covered(Tool.LINE, start, end, 0.0)
         cells += stamps.stair_cells(cells) if self.slopes and tile in (EMPTY, FULL) else []
         return self.with_stamp(draft, stamps.Stamp(self._lined(cells, tile, draft)), slopes=slopes)
 
@@ -151,15 +169,15 @@ class Brush:
         """The tiles of a shape, and the ends of a line two cells thick."""
         cells = stamps.covered(shape, start, end, bend)
         sloped = dict[Cell, int]()  # the shape from full tiles and slopes, where there is such a form
-        if self.slopes and self.tile == FULL and not bend and shape == "line":
+        if self.slopes and self.tile == FULL and not bend and shape == Tool.LINE:
             sloped = stamps.ramp(start, end)
-        elif self.slopes and self.tile == FULL and shape == "ellipse":
+        elif self.slopes and self.tile == FULL and shape == Tool.ELLIPSE:
             column, row, *size = stamps.area_between(start, end)
             sloped = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
         if sloped:
             # Slopes of the shape remove no tiles.
             return {cell: tile for cell, tile in sloped.items() if tile == FULL or not draft.tile(cell)}, ()
-        if shape != "line":
+        if shape != Tool.LINE:
             return dict.fromkeys(cells, self.tile), ()
         ramp = self.slopes and self.tile in (EMPTY, FULL)
         band = stamps.ramp_cells(cells) if ramp else cells

@@ -55,6 +55,10 @@ class Selection:
         """Numbers of the objects with a selected part."""
         return {number for number, _ in self.parts}
 
+    def joined(self, other: Selection) -> Selection:
+        """Both together, with the cells of this one if it has any."""
+        return Selection(self.area or other.area, self.parts | other.parts)
+
 
 def area_between(a: Cell, b: Cell) -> CellArea:
     column, row = min(a[0], b[0]), min(a[1], b[1])

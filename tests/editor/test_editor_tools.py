@@ -8,6 +8,7 @@ import pytest
 
 from ninja_game.document import History
 from ninja_game.editor import stamp
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.files import open_source
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
@@ -70,7 +71,7 @@ def test_a_dragged_brush_draws_every_cell_on_its_way_and_one_undo_takes_it_back(
 
 
 def test_a_rectangle_shrinks_while_it_is_drawn(tools: EditorTools) -> None:
-    tools.tool = "rectangle"
+    tools.tool = Tool.RECTANGLE
     drag(tools, (36, 36), (300, 300), (84, 60))
     assert sum(tools.draft.level.tiles) == 3 * 2
     tools.pick_up(object_of_type("gold"))
@@ -81,17 +82,17 @@ def test_a_rectangle_shrinks_while_it_is_drawn(tools: EditorTools) -> None:
 
 
 def test_fill_takes_one_press(tools: EditorTools) -> None:
-    tools.tool = "fill"
+    tools.tool = Tool.FILL
     drag(tools, (300, 300))
     assert set(tools.draft.level.tiles) == {1}
 
 
 def test_fill_puts_an_object_into_each_cell_that_is_joined_and_alike(tools: EditorTools) -> None:
-    tools.tool = "rectangle"
+    tools.tool = Tool.RECTANGLE
     drag(tools, (24, 24), (96, 96))
     tools.pick_up(0)
     drag(tools, (48, 48), (72, 72))
-    tools.tool = "fill"
+    tools.tool = Tool.FILL
     tools.pick_up(object_of_type("gold"))
     drag(tools, (60, 60))
     assert len(tools.draft.objects) == 4
@@ -100,9 +101,9 @@ def test_fill_puts_an_object_into_each_cell_that_is_joined_and_alike(tools: Edit
     assert not tools.draft.objects
 
 
-@pytest.mark.parametrize("tool", ["brush", "rectangle", "fill"])
+@pytest.mark.parametrize("tool", [Tool.BRUSH, Tool.RECTANGLE, Tool.FILL])
 @pytest.mark.parametrize("name", ["locked door", "trap door", "exit"])
-def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, name: str, tool: str) -> None:
+def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, name: str, tool: Tool) -> None:
     tools.tool = tool
     tools.pick_up(object_of_type(name))
     drag(tools, (238, 300))
@@ -124,6 +125,18 @@ def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, nam
     drag(tools, (238, 500))
     tools.pick_up(object_of_type("gold"))
     assert not pending(tools), "the next press puts what was taken"
+
+
+def test_a_pick_while_a_switch_is_to_be_placed_changes_nothing(tools: EditorTools) -> None:
+    tools.pick_up(object_of_type("exit"))
+    drag(tools, (238, 300))
+    drag(tools, (300, 300), pick=True)
+    assert pending(tools)
+    tools.move(360, 300)
+    drag(tools, (420, 204))
+    assert len(tools.draft.objects) == 1, "it is still one edit"
+    assert tools.undo()
+    assert not tools.draft.objects
 
 
 def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools: EditorTools) -> None:
@@ -165,7 +178,7 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
     drag(tools, (60, 60))
     tools.pick_up(object_of_type("thwump"))
     drag(tools, (84, 60))
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     drag(tools, (50, 50), (100, 70))
     assert tools.selection == Selection((2, 2, 3, 1), frozenset({(0, 0)}))
     drag(tools, (60, 60), (60, 90), (60, 108))
@@ -188,7 +201,7 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
     drag(tools, (300, 300))
     assert tools.draft.tile((11, 12)) == 2
     assert tools.draft.objects[1].values[:2] == (300.0, 300.0)
-    tools.nudge(0, 1)
+    tools.selected.nudge(0, 1)
     assert tools.draft.tile((11, 13)) == 2
     tools.turn(CLOCKWISE)
     tools.delete()
@@ -221,7 +234,7 @@ def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> N
     tools.pick_up(object_of_type("mine"))
     for x in (100, 200, 300):
         drag(tools, (x, 100))
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     drag(tools, (96, 96))
     drag(tools, (204, 96), add=True)
     drag(tools, (300, 96), add=True)
@@ -237,10 +250,10 @@ def test_properties_belong_to_what_is_selected_or_to_the_brush(tools: EditorTool
     tools.brush.spec = placed(tools.brush.spec, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0))
     assert word(tools.brush.spec, "direction") == "left"
     drag(tools, (300, 300))
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     drag(tools, (300, 300))
-    assert tools.chosen is not None
-    tools.change_each(lambda spec: spec._replace(values=(300.0, 300.0, 1.0)))
+    assert tools.selected.chosen is not None
+    tools.selected.change_each(lambda spec: spec._replace(values=(300.0, 300.0, 1.0)))
     assert word(tools.draft.objects[0], "direction") == "down"
     assert word(tools.brush.spec, "direction") == "left"
 
@@ -250,7 +263,7 @@ def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
     drag(tools, (300, 300))
     tools.pick_up(object_of_type("mine"))
     drag(tools, (300, 300))
-    tools.tool = "pick"
+    tools.tool = Tool.PICK
     tools.pick_up(1)
     drag(tools, (303, 300), pick=True)
     assert object_type_of(tools.brush.spec) == "mine"
@@ -300,7 +313,7 @@ def test_snaps() -> None:
 
 def test_gold_lies_evenly_along_a_line_that_the_wheel_bends(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
-    tools.tool, tools.brush.spacing = "line", 36.0
+    tools.tool, tools.brush.spacing = Tool.LINE, 36.0
     drag(tools, (60, 300), (276, 300))
     assert [spec.values for spec in tools.draft.objects] == [(60.0 + 36 * k, 300.0) for k in range(7)]
     tools.undo()
@@ -320,7 +333,7 @@ def test_gold_lies_evenly_along_a_line_that_the_wheel_bends(tools: EditorTools) 
 
 
 def test_an_ellipse_is_full_of_tiles_and_has_objects_along_it(tools: EditorTools) -> None:
-    tools.tool = "ellipse"
+    tools.tool = Tool.ELLIPSE
     drag(tools, (36, 36), (132, 132))
     rows = ["".join(str(tools.draft.tile((column, row))) for column in range(1, 6)) for row in range(1, 6)]
     assert rows == ["01110", "11111", "11111", "11111", "01110"]
@@ -339,11 +352,11 @@ def picture(tools: EditorTools, columns: range, rows: range) -> list[str]:
 
 def test_slopes_set_themselves_on_steps_and_corners(tools: EditorTools) -> None:
     tools.brush.slopes = True
-    tools.tool = "rectangle"
+    tools.tool = Tool.RECTANGLE
     drag(tools, (60, 60), (156, 132))
     assert picture(tools, range(1, 8), range(2, 6)) == [".#####."] * 4, "a box has corners"
     assert not tools.sets_slopes
-    tools.tool = "line"
+    tools.tool = Tool.LINE
     drag(tools, (372, 564), (756, 564))
     for left, row in ((16, 22), (18, 21), (19, 20), (20, 19), (20, 18), (21, 17)):
         drag(tools, (24 * left + 12, 24 * row + 12), (732, 24 * row + 12))
@@ -379,7 +392,7 @@ def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
     assert picture(tools, range(2, 7), range(2, 7)) == rows
 
 
-@pytest.mark.parametrize("tool", ["brush", "line"])
+@pytest.mark.parametrize("tool", [Tool.BRUSH, Tool.LINE])
 @pytest.mark.parametrize(
     "tile, full",
     [
@@ -392,7 +405,7 @@ def test_a_quick_freehand_diagonal_is_one_band_with_slopes(
     ],
 )
 def test_slopes_drawn_along_their_line_have_no_notch_behind_them(
-    tools: EditorTools, tool: str, tile: int, full: set[tuple[int, int]]
+    tools: EditorTools, tool: Tool, tile: int, full: set[tuple[int, int]]
 ) -> None:
     before = tools.draft
     for slopes, notches in ((True, full), (False, set())):
@@ -410,9 +423,9 @@ def test_slopes_drawn_along_their_line_have_no_notch_behind_them(
 def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
     level = open_source(root / "levels" / "00-1-mind-the-gap.txt").draft
     for tool, tile, ends in (
-        ("line", 1, ((108, 228), (180, 228))),
-        ("brush", 0, ((300, 300),)),
-        ("brush", 1, ((132, 276),)),
+        (Tool.LINE, 1, ((108, 228), (180, 228))),
+        (Tool.BRUSH, 0, ((300, 300),)),
+        (Tool.BRUSH, 1, ((132, 276),)),
     ):
         tools = EditorTools(level)
         tools.brush.slopes, tools.tool, tools.brush.tile = True, tool, tile
@@ -424,7 +437,7 @@ def test_slopes_that_nobody_touched_stay_as_they_are(root: Path) -> None:
 
 
 def test_both_halves_of_a_slope_of_two_tiles_change_together(tools: EditorTools) -> None:
-    tools.brush.slopes, tools.tool = True, "line"
+    tools.brush.slopes, tools.tool = True, Tool.LINE
     drag(tools, (60, 564), (756, 564))
     drag(tools, (156, 540), (756, 540))
     assert picture(tools, range(4, 10), range(22, 23)) == ["..fF##"]
@@ -433,7 +446,7 @@ def test_both_halves_of_a_slope_of_two_tiles_change_together(tools: EditorTools)
 
 
 def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorTools) -> None:
-    tools.tool = "line"
+    tools.tool = Tool.LINE
     ends = (60, 180), (132, 108)
     drag(tools, *ends)
     assert picture(tools, range(2, 6), range(4, 9)) == ["...#", "..#.", ".#..", "#...", "...."]
@@ -465,7 +478,7 @@ def test_a_line_that_slants_is_a_ramp_where_slopes_set_themselves(tools: EditorT
 
 
 def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> None:
-    tools.brush.slopes, tools.tool = True, "ellipse"
+    tools.brush.slopes, tools.tool = True, Tool.ELLIPSE
     drag(tools, (60, 60), (324, 324))
     upper = ["...fF##Dd...", "..s######a..", ".s########a.", "h##########g", "H##########G", "############"]
     assert picture(tools, range(2, 14), range(2, 8)) == upper
@@ -477,9 +490,9 @@ def test_an_ellipse_is_round_where_slopes_set_themselves(tools: EditorTools) -> 
     upper = [".fF#Dd.", "h#####g", "H#####G", "#######"]
     assert picture(tools, range(2, 9), range(2, 6)) == upper, "no cut diamond"
     tools.undo()
-    tools.tool = "line"
+    tools.tool = Tool.LINE
     drag(tools, (36, 132), (204, 132))
-    tools.tool = "ellipse"
+    tools.tool = Tool.ELLIPSE
     drag(tools, (60, 60), (132, 132))
     assert all(tools.draft.tile((column, 5)) for column in range(2, 6))
     for size in ((5, 4), (20, 8), (17, 17), (31, 23)):
@@ -511,7 +524,7 @@ def test_what_would_leave_the_level_stays_where_it_is(tools: EditorTools) -> Non
     tools.pick_up(object_of_type("gold"))
     drag(tools, (36, 300))
     tools.choose(frozenset({(0, 0)}))
-    assert [tools.shift(dx, 0) for dx in (-24, 720, 24)] == [False, True, False]
+    assert [tools.selected.shift(dx, 0) for dx in (-24, 720, 24)] == [False, True, False]
     assert tools.draft.objects[0].values[0] == 756
 
 
@@ -521,8 +534,8 @@ def test_undo_keeps_selected_what_is_still_there(tools: EditorTools) -> None:
         drag(tools, (x, 100))
     chosen = frozenset({(0, 0), (2, 0)})
     tools.choose(chosen)
-    tools.arrange(1, 0.0)
-    tools.nudge(0, 1)
+    tools.selected.arrange(1, 0.0)
+    tools.selected.nudge(0, 1)
     assert tools.undo()
     assert tools.selection.parts == chosen
     assert tools.redo()
@@ -553,22 +566,22 @@ def test_what_is_pasted_can_be_mirrored_and_turned_in_hand(tools: EditorTools) -
 
 def test_the_tool_select_drags_a_message_in_one_edit(tools: EditorTools) -> None:
     tools.load(History(Draft(Level(), says="start: Go | at 12,5: Jump: here")))
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     drag(tools, (12 * 24 + 3, 5 * 24 + 3), (400, 300), (20 * 24 + 3, 6 * 24 + 3), (2, 2))
     assert tools.draft.says == "start: Go | at 20,6: Jump: here", "the border is no place for it"
     tools.undo()
     assert tools.draft.says == "start: Go | at 12,5: Jump: here"
-    tools.tool = "brush"
+    tools.tool = Tool.BRUSH
     drag(tools, (12 * 24 + 3, 5 * 24 + 3), (400, 300))
     assert tools.draft.says == "start: Go | at 12,5: Jump: here"
 
 
 def test_a_chosen_side_of_a_door_wins_over_the_pointer(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("automatic door"))
-    tools.put_word("side", "bottom")
+    tools.selected.put_word("side", "bottom")
     drag(tools, (241, 250))
     assert word(tools.draft.objects[-1], "side") == "bottom"
-    tools.put_word("side", "nearest")
+    tools.selected.put_word("side", "nearest")
     drag(tools, (289, 300))
     assert word(tools.draft.objects[-1], "side") == "left"
 
@@ -588,7 +601,7 @@ def test_the_preview_of_a_press_shows_the_slopes_too(tools: EditorTools) -> None
 
 
 def test_the_preview_of_a_fill_is_made_once_while_the_pointer_stays_in_its_cell(tools: EditorTools) -> None:
-    tools.tool = "fill"
+    tools.tool = Tool.FILL
     with patch.object(stamp, "filled", wraps=stamp.filled) as flooded:
         for x in range(360, 384, 3):
             tools.move(x, 300)
@@ -607,26 +620,26 @@ def test_chosen_objects_move_in_the_order_with_their_selection(tools: EditorTool
         tools.pick_up(object_of_type("mine"))
         drag(tools, (x, 36))
     tools.choose(frozenset({(1, 0), (3, 0)}))
-    tools.reorder(-1)
+    tools.selected.reorder(-1)
     assert [spec.values[0] for spec in tools.draft.objects] == [60, 108, 36, 84]
     assert tools.selection.parts == {(0, 0), (1, 0)}
-    tools.reorder(1)
+    tools.selected.reorder(1)
     assert [spec.values[0] for spec in tools.draft.objects] == [36, 60, 108, 84]
-    tools.reorder(-9999)
+    tools.selected.reorder(-9999)
     assert [spec.values[0] for spec in tools.draft.objects] == [60, 108, 36, 84]
-    tools.reorder(9999)
+    tools.selected.reorder(9999)
     assert [spec.values[0] for spec in tools.draft.objects] == [36, 84, 60, 108]
 
 
 def test_the_right_button_gives_up_the_selection_and_deletes_nothing_in_select(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
     drag(tools, (100, 100))
-    before, tools.tool = tools.draft, "select"
+    before, tools.tool = tools.draft, Tool.SELECT
     drag(tools, (100, 100))
     assert tools.selection
     drag(tools, (100, 100), erase=True)
     drag(tools, (100, 100), erase=True)
-    assert (tools.draft, tools.selection, tools.tool) == (before, Selection(), "select")
+    assert (tools.draft, tools.selection, tools.tool) == (before, Selection(), Tool.SELECT)
     drag(tools, (100, 100))
     tools.delete()
     assert not forms(tools)
@@ -700,7 +713,7 @@ def test_a_drag_can_drag_a_copy(tools: EditorTools) -> None:
     tools.pick_up(object_of_type("gold"))
     drag(tools, (84, 84))
     before = tools.draft
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     drag(tools, (50, 50), (140, 90))
     neighbour = (2, 9)
     before = tools.draft.with_tiles({neighbour: 1})
@@ -725,13 +738,13 @@ def test_a_drag_can_drag_a_copy(tools: EditorTools) -> None:
 
 
 def test_a_fill_shows_what_it_would_fill_and_a_frame_how_large_it_is(tools: EditorTools) -> None:
-    tools.tool = "rectangle"
+    tools.tool = Tool.RECTANGLE
     tools.move(36, 36)
     tools.press()
     tools.move(100, 60)
     drawn = tools.frame_size
     tools.release()
     assert (drawn, tools.frame_size) == ((4, 2), None)
-    tools.tool, tools.brush.tile = "fill", 6
+    tools.tool, tools.brush.tile = Tool.FILL, 6
     tools.move(36, 36)
     assert tools.preview == dict.fromkeys([(column, row) for column in (1, 2, 3, 4) for row in (1, 2)], 6)

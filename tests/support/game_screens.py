@@ -396,8 +396,9 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     yield "editor-test"
     driver.press("escape")
     screen.session.add_playtest(screen.session.draft.level, bytes(3), over=True)
-    screen.session.playtests.maps.finish()
-    screen.session.playtests.maps.result = PlaytestMap({(2, 22): 2, (3, 22): 1}, ((108.0, 540.0), (132.0, 540.0)))
+    maps = screen.session.edited.playtests.maps
+    maps.finish()
+    maps.result = PlaytestMap({(2, 22): 2, (3, 22): 1}, ((108.0, 540.0), (132.0, 540.0)))
     driver.press("f9")
     yield "editor-tests"
     driver.press("f9", "f3")
@@ -421,7 +422,7 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.frames()
     yield "editor-save-as"
     driver.press("escape")
-    screen.session.tools.history.change(screen.session.source.draft)
+    screen.session.tools.history.change(screen.session.edited.source.draft)
     screen.commands.open()
     driver.frames(20)
     yield "editor-open"

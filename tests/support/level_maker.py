@@ -29,8 +29,9 @@ ROOM = with_stamp(
 
 def examine(editor: EditorScreen) -> None:
     """Have the level's problems found now."""
-    editor.session.examination.job.ask(LevelQuestion(editor.session.draft.level, (), editor.session.draft.says, b""))
-    editor.session.examination.job.finish()
+    job = editor.session.edited.examination.job
+    job.ask(LevelQuestion(editor.session.draft.level, (), editor.session.draft.says, b""))
+    job.finish()
 
 
 class Maker(MenuDriver):
@@ -39,7 +40,7 @@ class Maker(MenuDriver):
     def open(self, entry: str) -> BaseScreen:
         """In the editor with nothing drawn, instead of the room with which it begins."""
         screen = super().open(entry)
-        if isinstance(screen, EditorScreen) and not screen.session.source.path:
+        if isinstance(screen, EditorScreen) and not screen.session.edited.source.path:
             screen.session.begin(new_source(self.app.settings.name))
             screen.follow_parts()
         return self.top()
@@ -91,7 +92,7 @@ class Maker(MenuDriver):
 
     def await_problems(self) -> None:
         """Let pictures pass until the problems of the level as it is are known."""
-        self.wait(lambda: self.editor.session.examination.level is self.draft.level, "problems")
+        self.wait(lambda: self.editor.session.edited.examination.level is self.draft.level, "problems")
 
     def drag(self, *places: tuple[float, float], button: int = 1) -> None:
         for number, place in enumerate(places):

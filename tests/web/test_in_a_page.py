@@ -48,7 +48,7 @@ def findings():
     from ninja_game.play.editor.screen import EditorScreen
     app.push(EditorScreen(app))
     frames(40)
-    return app.top.session.examination.job.result is not None
+    return app.top.session.edited.examination.job.result is not None
 def picture():
     app.push(__import__("ninja_game.play.boss", fromlist=["BossScreen"]).BossScreen(app))
     frames()

@@ -7,8 +7,9 @@ from functools import partial
 
 import pygame
 
+from ninja_game.editor.bench import TAKES
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.specs import has_switch, object_type_name
-from ninja_game.editor.tools import TAKES
 from ninja_game.formats.messages import parse_messages
 from ninja_game.play.editor.part import EditorPart, ToolButton
 from ninja_game.play.editor.sheet import message_near
@@ -71,18 +72,18 @@ class StatusLine(EditorPart):
             drag = ", Select drags it" if message.place else ""
             return f"Double click opens the message{drag}: {message.one_line}"
         slopes = "Slopes by themselves. " if tools.sets_slopes else ""
-        if tools.brush.slopes and tools.tool == "rectangle" and not tools.brush.draws_objects:
+        if tools.brush.slopes and tools.tool == Tool.RECTANGLE and not tools.brush.draws_objects:
             slopes = "No slopes: a box keeps its corners. "
-        if tools.tool == "select" and tools.takes != TAKES[0]:
+        if tools.tool == Tool.SELECT and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
-        start, shown = self.session.at_pointer.start, slopes + _TOOL_HINTS[tools.effective_tool]
-        if tools.brush.draws_objects and tools.effective_tool == "brush" and tools.brush.spec.kind in (DOOR, EXIT):
+        start, shown = self.session.edited.at_pointer.start, slopes + _TOOL_HINTS[tools.effective_tool]
+        if tools.brush.draws_objects and tools.effective_tool == Tool.BRUSH and tools.brush.spec.kind in (DOOR, EXIT):
             what, two = object_type_name(tools.brush.spec), has_switch(tools.brush.spec)
             shown = (
                 f"Click where the {what} is{', then where its switch is' if two else ': it has no switch'}. F1: help"
             )
         if start != "off" and self.view.hovering:
-            shown = _REACH.format(start) if self.session.at_pointer.reach else _NO_REACH
+            shown = _REACH.format(start) if self.session.edited.at_pointer.reach else _NO_REACH
         return self.view.hint or shown
 
     def render_key(self) -> tuple[object, ...]:
@@ -101,11 +102,11 @@ class StatusLine(EditorPart):
 _REACH = "In 1 s, {}, the ninja can be where it is shaded, dies in the red; red lines: enemies; bars: last jumps"
 _NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for some minutes"
 _TOOL_HINTS = {
-    "brush": "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
-    "rectangle": "Drag a rectangle; right button erases. F1: help",
-    "line": "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
-    "ellipse": "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
-    "fill": "A click fills what is joined and alike. F1: help",
-    "select": "Click or drag a frame; drag moves it, with Ctrl a copy; Shift adds, right button cancels. F1: help",
-    "pick": "Click what to draw with. F1: help",
+    Tool.BRUSH: "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
+    Tool.RECTANGLE: "Drag a rectangle; right button erases. F1: help",
+    Tool.LINE: "Drag a line; the wheel bends it meanwhile; objects lie along it. F1: help",
+    Tool.ELLIPSE: "Drag an ellipse; tiles fill it, objects lie along it. F1: help",
+    Tool.FILL: "A click fills what is joined and alike. F1: help",
+    Tool.SELECT: "Click or drag a frame; drag moves it, with Ctrl a copy; Shift adds, right button cancels. F1: help",
+    Tool.PICK: "Click what to draw with. F1: help",
 }

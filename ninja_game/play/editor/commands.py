@@ -8,6 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from ninja_game.editor.bench import TAKES
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft, change_text
 from ninja_game.editor.examination import UNREACHABLE_CODES
 from ninja_game.editor.files import SUFFIX, Source, draft_of, lost_drafts, new_source, open_source
@@ -15,7 +17,6 @@ from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR
 from ninja_game.editor.palette import SNAPS
 from ninja_game.editor.playtests import lead_in, place_before, with_ninja_at
 from ninja_game.editor.specs import points
-from ninja_game.editor.tools import TAKES, TOOLS
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
@@ -103,11 +104,11 @@ class EditorCommands(DocumentCommands):
         view.open_message = self.messages
 
     def run(self, name: str) -> None:
-        tools = self.session.tools
-        if name in TOOLS:
-            tools.finish()
-            tools.tool = name
-        elif steps := self._steps().get(name):
+        steps = self._steps().get(name)
+        if name in list(Tool):
+            self.session.tools.finish()
+            self.session.tools.tool = Tool(name)
+        elif steps:
             steps.actions[next_option(list(steps.actions), steps.now)]()
         else:
             self._table()[name]()
@@ -117,7 +118,7 @@ class EditorCommands(DocumentCommands):
         tools, view, brush = self.session.tools, self.view, self.session.tools.brush
         mirror = _MIRRORS[brush.symmetry]
         return {
-            "next_tool": Choices({tool: partial(self.run, tool) for tool in TOOLS}, tools.tool),
+            "next_tool": Choices({tool: partial(self.run, tool) for tool in Tool}, tools.tool),
             "takes": Choices({what: partial(tools.take, what) for what in TAKES}, tools.takes),
             "symmetry": Choices({_MIRRORS[name]: partial(self.mirror, name) for name in _MIRRORS}, mirror),
             "grid": Choices({grid.name: partial(view.show_grid, grid) for grid in GRIDS}, view.grid.name),
@@ -151,12 +152,14 @@ class EditorCommands(DocumentCommands):
         }  # fmt: skip
 
     def undo(self) -> None:
-        before, tools = self.session.draft, self.session.tools
+        tools = self.session.tools
+        before = tools.draft
         is_done = tools.undo()
         self._tell_step("Undone" if is_done else "Nothing to undo", tools.draft, before, always=not is_done)
 
     def redo(self) -> None:
-        before, tools = self.session.draft, self.session.tools
+        tools = self.session.tools
+        before = tools.draft
         is_done = tools.redo()
         self._tell_step("Redone" if is_done else "Nothing to redo", before, tools.draft, always=not is_done)
 
@@ -165,14 +168,16 @@ class EditorCommands(DocumentCommands):
 
         ``always``: even if nothing has changed.
         """
-        saved = self.session.source.path and self.session.is_saved
+        saved = self.session.edited.source.path and self.session.is_saved
         text = change_text(before, after)
         if text or always:
-            self.view.hint = f"{': '.join(filter(None, (done, text)))}{'. Now as saved' if text and saved else ''}"
+            now = ". Now as saved" if text and saved else ""
+            self.view.hint = ": ".join(filter(None, (done, text))) + now
 
     def choose(self, button: Area, name: str) -> None:
         """Do a command; one with several steps shows a list of them below its button."""
-        if steps := self._steps().get(name):
+        steps = self._steps().get(name)
+        if steps:
             rows: list[MenuRow] = [(step.capitalize(), do, "") for step, do in steps.actions.items()]
             self.app.push(DropDown(self.app, button, rows, at=list(steps.actions).index(steps.now)))
         else:
@@ -205,7 +210,7 @@ class EditorCommands(DocumentCommands):
 
     def switch_playtests(self) -> None:
         """Show or hide the paths and deaths of all playtests of the level as it is."""
-        view, count = self.view, len(self.session.playtests.shown)
+        view, count = self.view, len(self.session.edited.playtests.shown)
         view.playtest_map = not view.playtest_map
         what = f"{counted(count, 'test')}: darker where more of them came, a cross where one died"
         if not count:
@@ -214,8 +219,8 @@ class EditorCommands(DocumentCommands):
 
     def next_reach(self) -> None:
         """Show what can be reached from the pointer with the next of the speeds, or hide it after the last."""
-        self.session.at_pointer.next_start()
-        asks = self.session.at_pointer.start != "off" and not self.view.hovering
+        self.session.edited.at_pointer.next_start()
+        asks = self.session.edited.at_pointer.start != "off" and not self.view.hovering
         self.view.hint = "Point at a place in the level: it is shown what the ninja reaches from there" if asks else ""
 
     def go_to_finding(self, index: int) -> None:
@@ -234,7 +239,7 @@ class EditorCommands(DocumentCommands):
         records = [number for number in finding.records if number < len(tools.draft.objects)]
         tools.choose(frozenset((n, part) for n in records for part in points(tools.draft.objects[n])))
         if records:
-            tools.tool = "select"
+            tools.tool = Tool.SELECT
         if places:
             tools.pointer = places[0]
             self.view.follow(*places[0])
@@ -269,13 +274,14 @@ class EditorCommands(DocumentCommands):
 
         The way there is that of the known run, or of the last playtest; else it begins on a floor before the place.
         """
-        session, messages = self.session, parse_messages(says)
-        level, message = session.draft.level, messages[number] if messages else None
+        session, level = self.session, self.session.draft.level
+        messages = parse_messages(says)
+        message = messages[number] if messages else None
         if message is None or message.when in {Moment.START, Moment.DEATH}:
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
-        last = [playtest.inputs for playtest in session.playtests.shown[-1:] if playtest.level == level]
+        last = [playtest.inputs for playtest in session.edited.playtests.shown[-1:] if playtest.level == level]
         runs = [session.certifying_inputs, *last, waits]
         with suppress(LevelError):  # without a ninja, which the playtest reports
             moments = ((run, appearances(messages, level, run)[number]) for run in filter(None, runs))
@@ -297,7 +303,8 @@ class EditorCommands(DocumentCommands):
             certifier.stop()
             self.app.notify(f"{'Stopped. ' if certifier.certification.run else ''}{certifier.text}", here=True)
             return
-        start, findings = partial(certifier.start, level), self.session.examine()
+        start = partial(certifier.start, level)
+        findings = self.session.examine()
         odd = [number for finding in findings if finding.code in UNREACHABLE_CODES for number in finding.records]
         if any(finding.code in ("no-ninja", "no-exit") for finding in findings):
             self.app.notify("Place a ninja and an exit with its switch first")
@@ -314,8 +321,8 @@ class EditorCommands(DocumentCommands):
         view, tools = self.view, self.session.tools
         if view.take(None) or tools.cancel():
             return
-        if tools.tool not in (TOOLS[0], "select"):
-            tools.tool = TOOLS[0]
+        if tools.tool not in (Tool.BRUSH, Tool.SELECT):
+            tools.tool = Tool.BRUSH
         elif view.offers_menu:
             view.hint = ""
             self.file_menu()
@@ -330,7 +337,8 @@ class EditorCommands(DocumentCommands):
                 self.playtest(self.session.tools.pointer)
 
         def ask() -> None:
-            self.view.taker, self.view.hint = playtest_at, "Click where the ninja begins; Esc cancels"
+            self.view.taker = playtest_at
+            self.view.hint = "Click where the ninja begins; Esc cancels"
 
         here, *commands = (EDITOR_COMMANDS.by_name[name] for name in ("playtest_here", *IN_MORE))
         choose_place = "Test with the ninja at a click", ask, f"Key at the pointer: {key_text(here)}"
@@ -365,19 +373,21 @@ class EditorCommands(DocumentCommands):
 
     def own_path(self) -> Path | None:
         """The level's file, or a new path among the player's levels; None for a level without file and name."""
-        if self.session.source.path is None and not self.session.draft.name:
-            return None
-        return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
+        path, name = self.session.edited.source.path, self.session.draft.name
+        if path is None and name:
+            return free_path(self._levels, file_stem(name, "level"), SUFFIX)
+        return path
 
     def reload_rows(self, path: Path) -> list[MenuRow]:
-        if path != self.session.source.path or not path.exists():
+        if path != self.session.edited.source.path or not path.exists():
             return []
         return [("Load it again", lambda: self._load(lambda: self.session.take(open_source(path))), _UNDO)]
 
     def follow_file(self) -> None:
         """Load a level's file that another program has changed; ask first if there are unsaved changes."""
         session = self.session
-        saved, path = session.is_saved, session.source.path
+        saved = session.is_saved
+        path = session.edited.source.path
 
         def follow() -> None:
             source = session.edited.changed_source()
@@ -404,7 +414,7 @@ class EditorCommands(DocumentCommands):
 
         def on_accept(text: str) -> None:
             name = text.strip() or NAMELESS
-            folder = session.source.path.parent if session.source.path else self._levels
+            folder = session.edited.source.path.parent if session.edited.source.path else self._levels
             save = partial(session.save, name=name)
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then, save=save)
 
@@ -440,9 +450,13 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, inputs, test = self._entry(), lambda: self.session.certifying_inputs, self.playtest_message
+        entry = self._entry()
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
+
+        def inputs() -> bytes:
+            return self.session.certifying_inputs
+
+        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.playtest_message, mood, inputs, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""

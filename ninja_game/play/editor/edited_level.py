@@ -8,7 +8,7 @@ from time import monotonic
 
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.examination import Examination
-from ninja_game.editor.files import Autosave, RecoveredDraft, Source, kept_history, open_source
+from ninja_game.editor.files import Autosave, RecoveredDraft, Source, keep_history, kept_history, open_source
 from ninja_game.editor.playtests import Playtests
 from ninja_game.editor.solver import Certification, search_of
 from ninja_game.errors import NinjaGameError
@@ -29,6 +29,7 @@ class EditedLevel:
     """
 
     def __init__(self, folder: Path, source: Source, recovered: RecoveredDraft | None = None) -> None:
+        self._folder = folder
         self.autosave = Autosave(folder, recovered.file if recovered else None)
         self.source = recovered.source if recovered else source
         key = recovered.file.stem if recovered else source.digest
@@ -38,7 +39,6 @@ class EditedLevel:
         self.playtests = Playtests()
         self.at_pointer = PointerSearches()
         self.known_runs = NewestJob(_search_of_known)  #: plays a run that may certify the level
-        self.kept_runs: tuple[object, ...] = ()  #: the runs written last beside the file, and its path
         self.unchanged, self.unchanged_since = self.draft.level, 0.0  #: the level of the last update; since when, s
         self.objects = self.draft.objects  #: those after the last stroke
         self.looked_at = 0.0  #: when the file was checked for changes, s
@@ -47,6 +47,25 @@ class EditedLevel:
     @property
     def draft(self) -> Draft:
         return self.history.draft
+
+    def follow(self) -> list[str]:
+        """Keep the draft safe if it is time; gives what has failed since the last call, here or in the examination."""
+        self.autosave.poll(self.history, self.source)
+        checks = self.examination.job
+        failed = [self.autosave.problem, checks.problem and f"The level could not be examined: {checks.problem}"]
+        self.autosave.problem = checks.problem = ""
+        return list(filter(None, failed))
+
+    def flush(self) -> None:
+        """Keep the draft safe now, and wait for the disk."""
+        self.autosave.flush(self.history, self.source)
+
+    def keep_history(self) -> None:
+        """Keep the steps of undo with the level's file."""
+        keep_history(self._folder, self.source.digest, self.history)
+
+    def close(self) -> None:
+        self.autosave.close()
 
     def changed_source(self) -> Source | None:
         """The level's file if another program has changed it. Raises NinjaGameError, OSError."""

@@ -8,6 +8,7 @@ from functools import lru_cache, partial
 
 import pygame
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.specs import BODY_PART, object_type_name, points
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.play.editor.part import EditorPart, ToolButton
@@ -75,7 +76,7 @@ class ObjectList(EditorPart):
         self.widgets = [self.find, palette, self.list, *moves, every]
 
     def _move(self, by: int) -> None:
-        self.session.tools.reorder(by * len(self.session.draft.objects) if _shift() else by)
+        self.session.tools.selected.reorder(by * len(self.session.draft.objects) if _shift() else by)
 
     def update(self, real_ms: int) -> None:
         tools = self.session.tools
@@ -103,12 +104,12 @@ class ObjectList(EditorPart):
         parts = frozenset((number, part) for part in places)
         self.view.follow(*places.get(BODY_PART, tools.pointer))
         tools.choose(parts ^ tools.selection.parts if _shift() else parts)
-        tools.tool = "select"
+        tools.tool = Tool.SELECT
 
     def _choose_shown(self) -> None:
         tools = self.session.tools
         tools.choose(frozenset((n, part) for n in self.shown for part in points(tools.draft.objects[n])))
-        tools.tool = "select"
+        tools.tool = Tool.SELECT
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         tools, number, (x, y, w, h) = self.session.tools, self.shown[index], area

@@ -185,7 +185,7 @@ _ENTRY_OF_KEY: dict[str, PaletteEntry] = {
 
 def live_changes(tools: EditorTools) -> dict[str, dict[str, str | int]]:
     """The members of CHANGES whose letters act now."""
-    names = [name for spec in tools.subjects for name in properties(spec)] if tools.about_objects else []
+    names = [name for spec in tools.selected.subjects for name in properties(spec)] if tools.about_objects else []
     return {name: CHANGES[name] for name in dict.fromkeys(names) if name in CHANGES}
 
 

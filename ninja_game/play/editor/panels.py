@@ -67,8 +67,8 @@ class Findings(EditorPart):
         return tuple(self.lines), self.list.first
 
     def update(self, real_ms: int) -> None:
-        if self._shown is not self.session.examination.findings:
-            self._shown, theme = self.session.examination.findings, self.view.app.theme
+        if self._shown is not self.session.edited.examination.findings:
+            self._shown, theme = self.session.edited.examination.findings, self.view.app.theme
             width = self.area[2] - 32
             accepted = self.session.edited.accepted
             texts = [
@@ -100,14 +100,15 @@ class FilePart(EditorPart):
     panel = LAYOUT.file
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        used, path = super().mouse(event, x, y), self.session.source.path
+        used, path = super().mouse(event, x, y), self.session.edited.source.path
         self.view.hint = short_path(path) if used and path else self.view.hint
         return used
 
     def render_key(self) -> tuple[object, ...]:
         session, certifier = self.session, self.session.certifier
         solver = certifier.text, certifier.is_busy, certifier.certification.share, certifier.certification.run is None
-        return session.name, session.source.path, session.is_saved, solver, certifier.is_stale(session.draft.level)
+        stale = certifier.is_stale(session.draft.level)
+        return session.name, session.edited.source.path, session.is_saved, solver, stale
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)
@@ -115,7 +116,7 @@ class FilePart(EditorPart):
         x, y, w, h = self.area
         x, w = x + 4, w - 6
         theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
-        path, state = session.source.path, "saved" if session.is_saved else "not saved"
+        path, state = session.edited.source.path, "saved" if session.is_saved else "not saved"
         file = f"{path.name}: {state}" if path else "not in a file yet"
         theme.text(surface, file, x, y + 20, size=9, colour=palette.faint, width=w)
         certifier = session.certifier

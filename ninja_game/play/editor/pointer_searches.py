@@ -52,8 +52,8 @@ class PointerSearches:
         return problem
 
     def _follow_drone(self, tools: EditorTools) -> None:
-        in_hand = tools.brush.draws_objects and not tools.selection and tools.effective_tool not in ("select", "pick")
-        spec = tools.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
+        in_hand = tools.brush.draws_objects and not tools.selection and tools.effective_tool.draws
+        spec = tools.selected.chosen or (tools.placed(*tools.pointer) if in_hand and is_inside(tools.cell) else None)
         drone = spec if spec and spec.kind == DRONE and well_formed(spec) else None
         if (tools.draft.level, drone) != self._drone:
             self._drone = tools.draft.level, drone

@@ -6,11 +6,12 @@ import re
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from ninja_game.editor.brush import CURVES, NEAREST, SPACINGS
+from ninja_game.editor.bench import TAKES
+from ninja_game.editor.brush import CURVES, NEAREST, SPACINGS, Tool
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, Motion
 from ninja_game.editor.palette import OTHER_KINDS, can_be_remade, remade, tile_name
 from ninja_game.editor.specs import SWITCH_PART, carried, has_switch, object_type_name, points, properties, word
-from ninja_game.editor.tools import TAKES, EditorTools
+from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import place_text, read_place
@@ -48,12 +49,12 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
     if tools.ghost:
         return len(tools.ghost.tiles), len(tools.ghost.objects), "pasted"
     if tools.selection:
-        spec = tools.chosen
+        spec = tools.selected.chosen
         kind = (object_type_name(spec), len(spec.values)) if spec else None
         return (
             tools.selection.area,
             tools.selection.parts,
-            [(name, not _present(tools, name)) for name in _common(tools.subjects)],
+            [(name, not _present(tools, name)) for name in _common(tools.selected.subjects)],
             kind,
             spec and tuple(points(spec).items()),
         )
@@ -64,7 +65,7 @@ def panel_key(tools: EditorTools) -> tuple[object, ...]:
 
 def _taking(tools: EditorTools) -> str:
     """What a press does to the panel's subject."""
-    return "In hand" if tools.tool in ("select", "pick") else "Draw"
+    return "Draw" if tools.tool.draws else "In hand"
 
 
 def _title(verb: str, cells: int, objects: int) -> str:
@@ -87,7 +88,7 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     elif tools.ghost:
         title = _title("A click pastes", len(tools.ghost.tiles), len(tools.ghost.objects))
         rows = [_turning(view)]
-    elif tools.selection and tools.chosen is None:
+    elif tools.selection and tools.selected.chosen is None:
         title, rows = _of_several(view)
     elif tools.selection or tools.brush.draws_objects:
         title, rows = _of_object(tools)
@@ -106,7 +107,7 @@ def _hints(texts: Sequence[str]) -> list[_RowMaker]:
 def _copying(tools: EditorTools) -> list[_RowMaker]:
     """What Select takes, and what happens to the empty cells of a copy."""
     rows: list[_RowMaker] = []
-    if tools.tool == "select" and not tools.ghost:
+    if tools.tool == Tool.SELECT and not tools.ghost:
         taken = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
         rows.append(
             lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
@@ -132,10 +133,10 @@ def _of_message(view: EditorView, number: int, width: float) -> tuple[str, list[
 def _of_several(view: EditorView) -> tuple[str, list[_RowMaker]]:
     tools = view.session.tools
     cells = tools.selection.area[2] * tools.selection.area[3] if tools.selection.area else 0
-    rows: list[_RowMaker] = [_choice(tools, name) for name in _common(tools.subjects)]
+    rows: list[_RowMaker] = [_choice(tools, name) for name in _common(tools.selected.subjects)]
     rows.append(_turning(view))
     rows += [_align_buttons(tools, head) for head in _ARRANGING]
-    remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.subjects)) else None
+    remake = partial(_ask_kind, view) if any(map(can_be_remade, tools.selected.subjects)) else None
     last: list[MenuRow] = [
         ("Move...", partial(_ask_move, view), "Move what is selected by columns and rows, or by px"),
         ("Kind...", remake, "What the selected objects become, in their places: not ninjas, exits, doors"),
@@ -146,7 +147,7 @@ def _of_several(view: EditorView) -> tuple[str, list[_RowMaker]]:
 
 def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
     """The selected object, or the one in hand."""
-    spec = tools.chosen or tools.brush.spec
+    spec = tools.selected.chosen or tools.brush.spec
     rows: list[_RowMaker] = [_choice(tools, name) for name in properties(spec)]
     rows += _hints([f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()])
     if tools.selection:
@@ -188,7 +189,7 @@ def _align_buttons(tools: EditorTools, head: str) -> _RowMaker:
         able, verb = most > 1 + (share is None), head or "Align"
         hint = f"{verb} the selected objects: {text.lower()}"
         why = f"{verb} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
-        buttons.append((text, partial(tools.arrange, axis, share) if able else None, hint if able else why))
+        buttons.append((text, partial(tools.selected.arrange, axis, share) if able else None, hint if able else why))
     return _button_row(buttons, head, 30)
 
 
@@ -213,7 +214,7 @@ def _ask_move(view: EditorView) -> None:
         step = 1.0 if match and match[3] else CELL
         if match is None:
             view.app.notify("Not moved: write two numbers, as 2,-1 for cells or 6,0px for px")
-        elif not view.session.tools.shift(step * float(match[1]), step * float(match[2])):
+        elif not view.session.tools.selected.shift(step * float(match[1]), step * float(match[2])):
             view.app.notify("Not moved: a part of it would leave the level")
 
     ask_text(view.app, "Move right and down by", "Cells: 2,-1   Or px: 6,0px", "", "Move", on_accept, 20)
@@ -221,7 +222,7 @@ def _ask_move(view: EditorView) -> None:
 
 def _ask_kind(view: EditorView) -> None:
     """Ask for another kind for the selected objects."""
-    change = view.session.tools.change_each
+    change = view.session.tools.selected.change_each
     rows: list[MenuRow] = [(kind.capitalize(), partial(change, partial(remade, name=kind)), "") for kind in OTHER_KINDS]
     view.app.push(Menu(view.app, "Selected objects become", [*rows, CANCEL]))
 
@@ -236,7 +237,7 @@ def _present(tools: EditorTools, name: str) -> str:
     """The word for a property of all subjects, "" where they differ."""
     if name == "side" and tools.brush.nearest and not tools.selection:
         return NEAREST
-    words = {word(spec, name) for spec in tools.subjects if name in properties(spec)}
+    words = {word(spec, name) for spec in tools.selected.subjects if name in properties(spec)}
     return words.pop() if len(words) == 1 else ""
 
 
@@ -245,14 +246,14 @@ def _choice(tools: EditorTools, name: str) -> _RowMaker:
 
     def put(text: str) -> None:
         if text:
-            tools.put_word(name, text)
+            tools.selected.put_word(name, text)
 
     label = "" if name in ("type", "movement") else f"{name}: "
     follows = [NEAREST] if name == "side" and not tools.selection else []
-    words = [(label + text, text) for text in (*follows, *properties(tools.subjects[0])[name].words)]
-    unsaid = f"{name}: (several)" if len(tools.subjects) > 1 else "(other)"
+    words = [(label + text, text) for text in (*follows, *properties(tools.selected.subjects[0])[name].words)]
+    unsaid = f"{name}: (several)" if len(tools.selected.subjects) > 1 else "(other)"
     options = [*words, *([] if _present(tools, name) else [(unsaid, "")])]
-    hint = f"The {name} of all that is selected" if len(tools.subjects) > 1 else f"The object's {name}"
+    hint = f"The {name} of all that is selected" if len(tools.selected.subjects) > 1 else f"The object's {name}"
     return lambda area: Choice(area, "", options, lambda: _present(tools, name), put, hint=hint)
 
 
@@ -260,16 +261,16 @@ def _place(tools: EditorTools, part: int) -> _RowMaker:
     """The place of a part, as a text behind its name: cells as ``5,7`` or px as ``60,564px``."""
 
     def put(text: str) -> None:
-        spec = tools.subjects[0]
+        spec = tools.selected.subjects[0]
         old = points(spec).get(part)
         try:
             x, y = read_place(text.replace(" ", ""))
         except LevelError:
             return
         if old is not None and (x, y) != old:
-            tools.change_each(lambda spec: carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
+            tools.selected.change_each(lambda spec: carried(spec, Motion(dx=x - old[0], dy=y - old[1]), (part,)))
 
-    text = place_text(*points(tools.subjects[0])[part])
+    text = place_text(*points(tools.selected.subjects[0])[part])
     hint = f"Where {'its switch' if part == SWITCH_PART else 'it'} is: column,row as in 5,7 or px as in 60,564px"
 
     def make(area: Area) -> Sequence[Widget]:
@@ -294,7 +295,7 @@ class Properties(EditorPart):
     def refresh(self) -> None:
         tools = self.session.tools
         message = self.view.message is not None and (self.view.message, tools.draft.says)
-        about = tools.tool == "select" and tools.takes, tools.pastes_empty, message, *panel_key(tools)
+        about = tools.tool == Tool.SELECT and tools.takes, tools.pastes_empty, message, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area
@@ -302,4 +303,4 @@ class Properties(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         tools = self.session.tools
-        return self._subject, tools.chosen, tools.selection, tools.brush.state
+        return self._subject, tools.selected.chosen, tools.selection, tools.brush.state

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import pygame
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import Source
 from ninja_game.editor.palette import SNAPS, ObjectType, snapped
 from ninja_game.editor.specs import PROPERTIES_BY_KIND, properties, word
@@ -87,8 +88,7 @@ class EditorScreen(WorkspaceScreen):
 
     def leave(self) -> None:
         super().leave()
-        self.session.certify_file()
-        self.session.edited.autosave.flush(self.session.tools.history, self.session.source)
+        self.session.leave()
 
     def capture(self, event: InputEvent) -> bool:
         """Enter ends what is typed, too."""
@@ -130,10 +130,10 @@ class EditorScreen(WorkspaceScreen):
         if action not in DIRECTIONS:
             return
         tools, (dx, dy) = self.session.tools, DIRECTIONS[action]
-        if tools.tool == "select" and tools.selection and not self.view.by_keys:
-            tools.nudge(dx, dy)
+        if tools.tool == Tool.SELECT and tools.selection and not self.view.by_keys:
+            tools.selected.nudge(dx, dy)
             return
-        snap = tools.brush.snap if tools.brush.draws_objects or tools.tool == "select" else "cell"
+        snap = tools.brush.snap if tools.brush.draws_objects or tools.tool == Tool.SELECT else "cell"
         x, y = tools.pointer
         step = SNAPS[snap]
         self.view.hovering = self.view.by_keys = True
@@ -144,7 +144,7 @@ class EditorScreen(WorkspaceScreen):
         """Keys that choose a tile, an object, a direction; Shift and arrows move what is selected."""
         tools = self.session.tools
         if key.startswith("shift+") and key[6:] in DIRECTIONS:
-            tools.nudge(*DIRECTIONS[key[6:]])
+            tools.selected.nudge(*DIRECTIONS[key[6:]])
             return True
         if self._change_by_key(key):
             return True
@@ -160,11 +160,11 @@ class EditorScreen(WorkspaceScreen):
         tools = self.session.tools
         changes = {name: letters[key] for name, letters in live_changes(tools).items() if key in letters}
         for name, to in changes.items():
-            tools.put_word(name, self._words_on(name, to) if isinstance(to, int) else to)
+            tools.selected.put_word(name, self._words_on(name, to) if isinstance(to, int) else to)
         return bool(changes)
 
     def _words_on(self, name: str, by: int) -> str:
-        spec = next(subject for subject in self.session.tools.subjects if name in properties(subject))
+        spec = next(subject for subject in self.session.tools.selected.subjects if name in properties(subject))
         words, now = list(PROPERTIES_BY_KIND[spec.kind][name].words), word(spec, name)
         return next_option(words, now if now in words else words[0], by)
 

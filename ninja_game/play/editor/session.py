@@ -2,35 +2,28 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from time import monotonic
 
 from ninja_game.editor import files
+from ninja_game.editor.certificates import CertificateKeeper
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.examination import Examination, LevelQuestion
-from ninja_game.editor.playtests import Playtest, Playtests
-from ninja_game.editor.solver import Certification, Certifier, search_of
+from ninja_game.editor.examination import LevelQuestion
+from ninja_game.editor.playtests import Playtest
+from ninja_game.editor.solver import Certifier, search_of
 from ninja_game.editor.tools import EditorTools
-from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.user_folder import LEVELS
-from ninja_game.formats.load import load_levels
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.pack import is_pack
 from ninja_game.formats.replay.provenance import Provenance
-from ninja_game.formats.run_time import seconds_text
-from ninja_game.levels.episodes import GAME, YOURS, Entry
+from ninja_game.levels.episodes import YOURS, Entry
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_text, pasted_text
 from ninja_game.play.editor.edited_level import EditedLevel
-from ninja_game.play.editor.pointer_searches import PointerSearches
 from ninja_game.play.window import save_picture
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.player_data import keep_replay
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level
@@ -56,6 +49,7 @@ class EditorSession:
 
     def _edit(self, edited: EditedLevel) -> None:
         self.edited = edited
+        self.certificates = CertificateKeeper(self.app.player.folder, self.app.notify)
         self.tools.load(edited.history)
         self.certifier.edit(self.draft.level)
 
@@ -67,25 +61,20 @@ class EditorSession:
         before = self.edited
         self._leave_search()
         self._edit(EditedLevel(self.app.player.folder, source, draft))
-        before.autosave.close()
+        before.close()
         self._recognise()
 
     def _recognise(self) -> None:
-        """Use this level's certificate if there is one: beside its file, or of the same level elsewhere."""
-        catalogue, level, path = self.app.player.catalogue, self.draft.level, self.source.path
-        same = [alone] if (alone := self.entry) else []
-        same += [item for item in catalogue.single_levels() if item.named.level == level]
-        runs = ((item, run) for item in same if (run := catalogue.author_run(item)))
-        entry, run = next(runs, (None, None))
+        """Use this level's certificate if there is one."""
+        level = self.draft.level
+        run = self.certificates.known_run(self.app.player.catalogue, level, self.entry)
         if run:
             self.edited.known_runs.ask((level, run))
-            if path and entry is same[0]:
-                self.edited.kept_runs = run, run if run.gold >= level.gold else None, path
 
     @property
     def entry(self) -> Entry | None:
         """The level as an entry of the player's folder; None without a file."""
-        path = self.source.path
+        path = self.edited.source.path
         return Entry(NamedLevel(self.name, "", "", self.draft.level, str(path)), YOURS) if path else None
 
     def set_slopes(self, slopes: bool) -> None:
@@ -100,52 +89,32 @@ class EditorSession:
         return run.inputs if run and not self.certifier.is_stale(self.draft.level) else b""
 
     @property
-    def source(self) -> files.Source:
-        return self.edited.source
-
-    @property
-    def examination(self) -> Examination:
-        return self.edited.examination
-
-    @property
-    def playtests(self) -> Playtests:
-        return self.edited.playtests
-
-    @property
-    def at_pointer(self) -> PointerSearches:
-        return self.edited.at_pointer
-
-    @property
     def draft(self) -> Draft:
         return self.tools.draft
 
     @property
     def is_saved(self) -> bool:
-        return self.draft == self.source.draft
+        return self.draft == self.edited.source.draft
 
     @property
     def name(self) -> str:
-        return self.draft.name or (self.source.path.stem if self.source.path else "") or "New level"
+        return self.draft.name or (self.edited.source.path.stem if self.edited.source.path else "") or "New level"
 
     def update(self) -> None:
         edited = self.edited
-        if problem := edited.at_pointer.follow(self.tools):
+        problem = edited.at_pointer.follow(self.tools)
+        if problem:
             self.app.notify(problem)
         edited.playtests.show(self.draft.level)
-        known, edited.known_runs.result = edited.known_runs.result, None
+        known = edited.known_runs.result
+        edited.known_runs.result = None
         if known and known.level == self.draft.level:
             self.certifier.adopt(known)
         self._search_again()
         if not self.certifier.is_busy:
             self.certify_file()
-        edited.autosave.poll(edited.history, edited.source)
-        if edited.autosave.problem:
-            self.app.notify(edited.autosave.problem)
-            edited.autosave.problem = ""
-        checks = edited.examination.job
-        if checks.problem:
-            self.app.notify(f"The level could not be examined: {checks.problem}")
-            checks.problem = ""
+        for problem in edited.follow():
+            self.app.notify(problem)
         self._examine()
         if not edited.history.in_stroke and self.draft.objects is not edited.objects:
             self._tell_of_exits()
@@ -155,13 +124,14 @@ class EditorSession:
         obstacles = () if certifier.is_stale(level) else certifier.certification.obstacles
         if not self.tools.is_dragging:
             question = LevelQuestion(level, obstacles, self.draft.says, self.certifying_inputs)
-            self.examination.follow(question, at_once=at_once)
+            self.edited.examination.follow(question, at_once=at_once)
 
     def _search_again(self) -> None:
         """A search under way follows the level: at once while it waits, else once nothing has changed for REST."""
         edited, certifier, level = self.edited, self.certifier, self.draft.level
         if level is not edited.unchanged:
-            edited.unchanged, edited.unchanged_since = level, monotonic()
+            edited.unchanged = level
+            edited.unchanged_since = monotonic()
         due = certifier.is_waiting or monotonic() - edited.unchanged_since >= REST
         rests = due and not edited.history.in_stroke
         stale = rests and certifier.is_busy and certifier.is_stale(level)
@@ -182,8 +152,8 @@ class EditorSession:
         """The findings of the present level."""
         self.update()
         self._examine(at_once=True)
-        self.examination.job.finish()
-        return self.examination.findings
+        self.edited.examination.job.finish()
+        return self.edited.examination.findings
 
     @property
     def certify_text(self) -> str:
@@ -195,12 +165,12 @@ class EditorSession:
 
     def follow_move(self) -> None:
         """If the level's file was moved, as into a pack, go on with it there. Raises NinjaGameError, OSError."""
-        path = self.source.path
+        path = self.edited.source.path
         if path and not path.exists():
             paths = (Path(item.named.file) for item in self.app.player.catalogue.single_levels())
             sources = (files.open_source(file) for file in paths if file.name == path.name and file.is_file())
-            same = (source for source in sources if source.digest == self.source.digest)
-            self.edited.source = next(same, self.source)
+            same = (source for source in sources if source.digest == self.edited.source.digest)
+            self.edited.source = next(same, self.edited.source)
 
     def take(self, source: files.Source) -> None:
         """Load the level from its changed file; this can be undone."""
@@ -210,68 +180,34 @@ class EditorSession:
 
     @property
     def keeping(self) -> str:
-        """What happens to the run that the solver has found, a sentence."""
-        path = self.source.path
-        if path and not self._keeps_runs(path):
-            return "To keep it: File, Save the run that was found"
-        return "Kept with the level" if path and self.is_saved else "Kept when the level is saved"
-
-    def _keeps_runs(self, path: Path) -> bool:
-        """Whether certificates are kept beside a file: in the player's folder of levels, and in packs."""
-        return path.parent == self.app.player.folder / LEVELS or is_pack(path.parent)
+        """What happens to the run that was found, a sentence."""
+        return self.certificates.text(self.edited.source.path, is_saved=self.is_saved)
 
     def certify_file(self) -> None:
         """Write the known runs beside the level's file if that holds their level: packs then need no other."""
-        search, path = self.certifier.certification, self.source.path
-        known = search.run, search.gold_run, path
-        if path and self.certifying_inputs and known != self.edited.kept_runs and self.is_saved:
-            self.edited.kept_runs = known
-            self._keep(path, search)
-
-    def _keep(self, path: Path, search: Certification, *, name: str = "") -> None:
-        """Write the runs of a search beside a file with its level. ``name``: of a level left by now, for a notice."""
-        from ninja_game.search.certificate import update_certificates
-
-        which = f"{name}: " if name else ""
-        try:
-            named = self._file_now(path, search)
-            if named is None and search.run:
-                self.app.notify(f"{which}no certificate, as no file has the level any more. Open it, and press F7")
-                return
-            for run in filter(None, (search.run, search.gold_run)):
-                if named and self._keeps_runs(Path(named.file)):
-                    update_certificates(named, run)
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(f"{which}no certificate: {reason(error)}")
-        else:
-            if name:
-                end = f"no run in {search.seconds:.0f} s"
-                if search.run:
-                    end = f"certified, {seconds_text(search.run.end_tick)} s, kept with the level"
-                self.app.notify(f"{name}: {end}")
-
-    def _file_now(self, path: Path, search: Certification) -> NamedLevel | None:
-        """The level of a search in its file, or in another of the player's files, as in a pack; None if it is gone."""
-        with suppress(NinjaGameError, OSError):
-            if (named := load_levels(path)[0]).level == search.level:
-                return named
-        # The window's catalogue is not thread-safe.
-        own = (item.named for item in Catalogue(self.app.player.folder / LEVELS).single_levels() if item.source != GAME)
-        return next((entry for entry in own if entry.level == search.level and Path(entry.file).is_file()), None)
+        path = self.edited.source.path
+        if path and self.certifying_inputs and self.is_saved:
+            self.certificates.keep(path, self.certifier.certification)
 
     def _leave_search(self) -> None:
         """The level is closed: a search of the level in its file continues in the background, any other one ends."""
-        path, level = self.source.path, self.source.draft.level
-        files.keep_history(self.app.player.folder, self.source.digest, self.tools.history)
-        if path and self._keeps_runs(path) and self.certifier.is_busy and not self.certifier.is_stale(level):
-            self.certifier.leave(partial(self._keep, path, name=self.source.draft.name or path.stem))
+        source, certifier = self.edited.source, self.certifier
+        self.edited.keep_history()
+        searches = certifier.is_busy and not certifier.is_stale(source.draft.level)
+        if source.path and searches and self.certificates.keeps_beside(source.path):
+            certifier.leave(self.certificates.keeping(source.path, source.draft.name or source.path.stem))
         else:
-            self.certifier.leave(None)
+            certifier.leave(None)
         self.certify_file()
 
     def close(self) -> None:
         self._leave_search()
-        self.edited.autosave.close()
+        self.edited.close()
+
+    def leave(self) -> None:
+        """The editor is left for now: keep all that is known."""
+        self.certify_file()
+        self.edited.flush()
 
     def end(self) -> None:
         self.tools.finish()
@@ -283,10 +219,10 @@ class EditorSession:
         """
         self.tools.finish()
         named = self.draft if name is None else replace(self.draft, name=name)
-        self.edited.source = files.save(self.source, named, path, replacing=replacing)
+        self.edited.source = files.save(self.edited.source, named, path, replacing=replacing)
         # The file has the new name, so undo keeps it.
         self.tools.history.amend(lambda draft: replace(draft, name=named.name))
-        files.keep_history(self.app.player.folder, self.source.digest, self.tools.history)
+        self.edited.keep_history()
 
     def export_picture(self) -> None:
         surface = thumbnail(self.draft.level, self.app.theme.palette, LEVEL_PICTURE_WIDTH)
@@ -310,7 +246,7 @@ class EditorSession:
     def add_playtest(self, level: Level, inputs: bytes, *, over: bool) -> None:
         """Show the route and death of a playtest that was left or is ``over``."""
         if inputs:
-            self.playtests.add(self.draft.level, Playtest(level, inputs, over))
+            self.edited.playtests.add(self.draft.level, Playtest(level, inputs, over))
 
     def passed(self, level: Level, attempt: Attempt) -> bool:
         """A playtest reached the exit; True if it certifies the present level: played from its start, in its time."""

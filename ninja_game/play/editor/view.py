@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.playtests import PathPoints, PlaytestMap
@@ -112,7 +113,11 @@ class Overlay:
         if self._reach is not reach:
             self._reach = reach
             areas = [(reach.spans, palette.lock, 80), (reach.deaths, palette.bad, 255)]
-            squares = [((*c[:3], a), canvas.rect(x, y, w, SQUARE)) for spans, c, a in areas for x, y, w in spans]
+            squares = [
+                ((*colour[:3], alpha), canvas.rect(x, y, width, SQUARE))
+                for spans, colour, alpha in areas
+                for x, y, width in spans
+            ]
             rects = [rect for _, rect in squares] or [pygame.Rect(canvas.origin, (1, 1))]
             self._seen = rects[0].unionall(rects).clip(self.area)
             self._reached = pygame.Surface(self._seen.size, pygame.SRCALPHA)
@@ -151,10 +156,11 @@ class Overlay:
         """Draw the preview of a press, also at the mirrored places of a symmetry."""
         if tools.placing_switch:
             return
-        if ghost := tools.pasted:
+        ghost = tools.pasted
+        if ghost:
             self._ghost(ghost, empty=tools.pastes_empty)
             return
-        draws = tools.effective_tool not in ("select", "pick")
+        draws = tools.effective_tool.draws
         motions = (Motion(), *(SYMMETRIES[tools.brush.symmetry] if draws else ()))
         if not draws:
             target = tools.near(PICK_REACH)
@@ -220,6 +226,9 @@ class Press(NamedTuple):
     ms: int
     draft: Draft
 
+    def doubles(self, before: Press) -> bool:
+        return before.cell == self.cell and self.ms - before.ms < DOUBLE_MS
+
 
 class EditorView(Pane):
     """The level under edit with its overlay."""
@@ -275,7 +284,7 @@ class EditorView(Pane):
     def message(self) -> int | None:
         """The number of the selected message."""
         tools, number = self.session.tools, self._message
-        selects = tools.tool == "select" and not tools.selection
+        selects = tools.tool == Tool.SELECT and not tools.selection
         return number if selects and number in message_places(tools.draft).values() else None
 
     def _layout_key(self) -> tuple[object, ...]:
@@ -343,20 +352,20 @@ class EditorView(Pane):
             if erase or (is_inside(cell) and not pick):
                 self.take(None if erase else cell)
             return
-        free = tools.tool == "select" and not (erase or pick or tools.ghost or tools.near(PICK_REACH))
+        free = tools.tool == Tool.SELECT and not (erase or pick or tools.ghost or tools.near(PICK_REACH))
         self._message = message_near(tools.draft, *tools.pointer) if free else None
-        before, now = None if erase or pick else self._pressed, pygame.time.get_ticks()
-        self._pressed = Press(cell, now, tools.draft)
-        twice = before and before.cell == cell and now - before.ms < DOUBLE_MS
-        number = message_near(before.draft, *tools.pointer) if before and twice else None
-        if before and number is not None:
-            # Undo what the first click of the two has drawn.
-            tools.finish()
-            if tools.draft is not before.draft:
-                tools.undo()
-            self._pressed = None
-            self.open_message(number)
-            return
+        before = None if erase or pick else self._pressed
+        self._pressed = Press(cell, pygame.time.get_ticks(), tools.draft)
+        if before and self._pressed.doubles(before):
+            number = message_near(before.draft, *tools.pointer)
+            if number is not None:
+                # Undo what the first click of the two has drawn.
+                tools.finish()
+                if tools.draft is not before.draft:
+                    tools.undo()
+                self._pressed = None
+                self.open_message(number)
+                return
         self._held = True
         tools.press(erase=erase, pick=pick, add=add, copies=copies)
 
@@ -382,7 +391,8 @@ class EditorView(Pane):
         return held
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        camera, button = self.camera, getattr(event, "button", 0)
+        camera = self.camera
+        button = getattr(event, "button", 0)
         if event.type == pygame.MOUSEBUTTONUP:
             if button != pygame.BUTTON_MIDDLE:
                 self.release()
@@ -392,7 +402,8 @@ class EditorView(Pane):
             camera.held = None
             return True
         self._mouse = self.app.canvas.point(x, y)
-        self.hovering, self.by_keys = self._rect.collidepoint(self._mouse), False
+        self.hovering = self._rect.collidepoint(self._mouse)
+        self.by_keys = False
         if event.type == pygame.MOUSEMOTION and event.buttons[1]:
             camera.drag(self._rect.size, self._mouse)
         self._point()
@@ -401,7 +412,8 @@ class EditorView(Pane):
         elif button == pygame.BUTTON_MIDDLE:
             camera.grab(self._mouse)
         elif button:
-            add, copies = (bool(pygame.key.get_mods() & modifier) for modifier in (pygame.KMOD_SHIFT, pygame.KMOD_CTRL))
+            held = pygame.key.get_mods()
+            add, copies = bool(held & pygame.KMOD_SHIFT), bool(held & pygame.KMOD_CTRL)
             self.press(erase=button == pygame.BUTTON_RIGHT, add=add, copies=copies)
         return True
 
@@ -410,7 +422,8 @@ class EditorView(Pane):
 
     def render_key(self) -> tuple[object, ...]:
         """All that the overlay depends on; the sheet watches the level itself."""
-        tools, reach = self.session.tools, self.session.at_pointer.reach
+        tools = self.session.tools
+        reach = self.session.edited.at_pointer.reach
         return (
             tools.pointer, self.hovering, tools.tool, tools.brush.state, tools.ghost, tools.pastes_empty,
             tools.selection, tools.marquee, tools.placing_switch, tools.draft, self.message, reach and reach[1:],
@@ -424,7 +437,8 @@ class EditorView(Pane):
         if tools.draft is not self.sheet.draft:
             self.sheet.show(tools.draft)
         self._follow_marks()
-        dirty, key = self.sheet.paint(), self.render_key()
+        dirty = self.sheet.paint()
+        key = self.render_key()
         if not (whole or dirty) and key == self._drawn:
             return []
         self._drawn = key
@@ -433,28 +447,32 @@ class EditorView(Pane):
             surface.blit(self.sheet.surface, self.overlay.area)
         else:
             changed = self.overlay.restore(surface, dirty)
-        reach = self.session.at_pointer.reach if self.hovering else None
+        reach = self.session.edited.at_pointer.reach if self.hovering else None
         spot = next((at for at, number in message_places(tools.draft).items() if number == self.message), None)
         return [*changed, *self.overlay.draw(surface, tools, reach, spot, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
-        session, palette, draft = self.session, self.app.theme.palette, self.session.draft
-        certification, stale = session.certifier.certification, session.certifier.is_stale(draft.level)
-        playtests, examination, drone_round = session.playtests, session.examination, session.at_pointer.drone_round
+        session, edited, draft = self.session, self.session.edited, self.session.draft
+        palette = self.app.theme.palette
+        certification = session.certifier.certification
+        stale = session.certifier.is_stale(draft.level)
+        playtests, findings, drone_round = edited.playtests, edited.examination.findings, edited.at_pointer.drone_round
         state = (
             draft.objects, self.lines, self.paths, playtests.last_route, certification.route, stale,
-            examination.findings, session.tools.brush.symmetry, draft.says, self.playtest_map and playtests.map,
+            findings, session.tools.brush.symmetry, draft.says, self.playtest_map and playtests.map,
             playtests.last_deaths, drone_round,
         )  # fmt: skip
         if len(state) == len(self._marked) and all(a is b for a, b in zip(state, self._marked, strict=True)):
             return
         self._marked = state
-        open_findings = [finding for finding in examination.findings if finding.code not in session.edited.accepted]
-        level = examination.level or draft.level
+        open_findings = [finding for finding in findings if finding.code not in edited.accepted]
+        level = edited.examination.level or draft.level
         signs = [place for finding in open_findings for place in finding_points(level, finding)]
-        routes: list[tuple[PathPoints, Colour]] = [(playtests.last_route, palette.ghost)]
-        routes.append((certification.route, palette.faint if stale else palette.good))
-        routes.append((drone_round, palette.bad))
+        routes: list[tuple[PathPoints, Colour]] = [
+            (playtests.last_route, palette.ghost),
+            (certification.route, palette.faint if stale else palette.good),
+            (drone_round, palette.bad),
+        ]
         last = PlaytestMap({}, playtests.last_deaths if self.paths else ())
         marks = level_marks(
             self.sheet.flat,

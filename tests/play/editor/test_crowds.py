@@ -3,6 +3,7 @@
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import Source
 from ninja_game.editor.palette import OBJECT_TYPES, placed
 from ninja_game.editor.specs import BODY_PART, points
@@ -51,7 +52,7 @@ def test_what_is_dragged_goes_to_the_last_place_of_the_mouse(room: Maker) -> Non
     room.editor.session.begin(Source(with_stamp(ROOM, Stamp({}, CROWD))))
     room.frames(3)
     tools = room.editor.session.tools
-    tools.tool, tools.brush.snap = "select", "px"
+    tools.tool, tools.brush.snap = Tool.SELECT, "px"
     tools.selection = Selection(None, frozenset((n, BODY_PART) for n in range(len(tools.draft.objects))))
     before = [points(spec)[BODY_PART] for spec in tools.draft.objects]
     x, y = before[100]
@@ -69,9 +70,9 @@ def test_what_is_dragged_goes_to_the_last_place_of_the_mouse(room: Maker) -> Non
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0), touch=False))
     room.frames()
     assert len(moves) == 2
-    checked = room.editor.session.examination.job.result
+    checked = room.editor.session.edited.examination.job.result
     room.frames(20)
-    assert room.editor.session.examination.job.result is checked, "problems are looked for when it is let go"
+    assert room.editor.session.edited.examination.job.result is checked, "problems are looked for when it is let go"
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=places[9], rel=(0, 0), buttons=(1, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=places[9], button=1, touch=False))
     room.frames()

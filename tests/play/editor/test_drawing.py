@@ -3,6 +3,7 @@
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.palette import FAMILIES, OBJECT_TYPES, TILE_KEYS, object_of_type
 from ninja_game.editor.specs import BODY_PART
 from ninja_game.play.editor.commands import EDITOR_COMMANDS
@@ -57,11 +58,11 @@ def test_keys_choose_draw_and_place(room: Maker) -> None:
     assert room.draft.objects[-1].values[2] == 2.0
     room.press("v", "space")
     room.chord("left", pygame.KMOD_LSHIFT)
-    assert tools.chosen
-    x = tools.chosen.values[0]
+    assert tools.selected.chosen
+    x = tools.selected.chosen.values[0]
     room.press("w")
-    assert tools.chosen.values[2] == 3.0
-    assert tools.chosen.values[0] == x
+    assert tools.selected.chosen.values[2] == 3.0
+    assert tools.selected.chosen.values[0] == x
     room.press("delete")
     assert len(room.draft.objects) == 2
 
@@ -115,7 +116,7 @@ def test_a_pad_draws_too(room: Maker) -> None:
 
 def test_what_has_a_switch_is_not_filled_in(room: Maker) -> None:
     tools = room.editor.session.tools
-    tools.tool, tools.brush.draws_objects = "fill", False
+    tools.tool, tools.brush.draws_objects = Tool.FILL, False
     assert tools.effective_tool == "fill"
     before = len(room.draft.objects)
     tools.pick_up(object_of_type("locked door"))
@@ -165,7 +166,7 @@ def test_slopes_and_spacing_are_set_in_the_panel_and_the_wheel_bends_a_line(room
 
 
 def test_a_fill_with_objects_is_seen_before_the_click(room: Maker) -> None:
-    room.editor.session.tools.tool = "rectangle"
+    room.editor.session.tools.tool = Tool.RECTANGLE
     room.drag((200, 200), (300, 300))
     room.press("0")
     room.drag((225, 225), (275, 275))
@@ -184,7 +185,7 @@ def test_the_wheel_changes_nothing_while_something_is_drawn(maker: Maker) -> Non
     maker.open("Editor")
     tools = maker.editor.session.tools
     maker.press("shift+g")
-    tools.tool = "ellipse"
+    tools.tool = Tool.ELLIPSE
     start = maker.app.canvas.point(*maker.at(200, 200))
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=start, rel=(0, 0), buttons=(0, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=start, button=1, touch=False))
@@ -311,7 +312,7 @@ def test_a_door_without_its_switch_is_removed_and_that_is_reported(room: Maker, 
 def test_flat_ends_of_a_bent_line_with_slopes_are_square(room: Maker, symmetry: str) -> None:
     tools = room.editor.session.tools
     room.editor.session.set_slopes(True)
-    tools.tool, tools.brush.symmetry = "line", symmetry
+    tools.tool, tools.brush.symmetry = Tool.LINE, symmetry
     tools.move(60, 480)
     tools.press()
     tools.move(340, 400)

@@ -65,8 +65,8 @@ def test_a_level_that_is_opened_again_can_be_undone_as_before(room: Maker, tmp_p
     room.drag((300, 300))
     drawn = room.draft
     room.chord("s", pygame.KMOD_LCTRL)
-    assert kept_history(tmp_path, room.editor.session.source.digest, drawn).steps(9) == ([ROOM], []), "at once"
-    path = room.editor.session.source.path
+    assert kept_history(tmp_path, room.editor.session.edited.source.digest, drawn).steps(9) == ([ROOM], []), "at once"
+    path = room.editor.session.edited.source.path
     assert path
     room.drag((400, 300))
     lost = room.draft
@@ -95,7 +95,7 @@ def test_a_level_that_is_opened_again_says_what_is_undone_and_what_is_as_saved(r
     room.shown(FormPanel).texts[1] = "ida"
     room.choose("OK")
     room.chord("s", pygame.KMOD_LCTRL)
-    path = room.editor.session.source.path
+    path = room.editor.session.edited.source.path
     assert path
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
@@ -142,7 +142,7 @@ def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -
     maker.type("bd")
     maker.choose("Save")
     assert isinstance(maker.top(), EditorScreen)
-    assert (maker.draft.name, maker.editor.session.source.path) == ("bd", tmp_path / "levels" / "bd.txt")
+    assert (maker.draft.name, maker.editor.session.edited.source.path) == ("bd", tmp_path / "levels" / "bd.txt")
     assert sum(maker.draft.level.tiles) == 1
     (tmp_path / "levels" / "other.txt").write_text("somebody's")
     maker.editor.commands.save_as()
@@ -184,7 +184,7 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
         maker.keys.script = [2] * 300
         maker.press("right")
         maker.frames(320)
-        assert maker.editor.session.playtests.shown[-1].over, "a room can be passed as it is"
+        assert maker.editor.session.edited.playtests.shown[-1].over, "a room can be passed as it is"
         maker.press("space")
         assert isinstance(maker.top(), EditorScreen)
     else:
@@ -322,7 +322,7 @@ def test_what_a_backup_brings_is_never_saved_where_it_says(there: bool, maker: M
     maker.open("Editor")
     maker.choose("Recover")
     maker.chord("s", pygame.KMOD_LCTRL)
-    assert maker.editor.session.source.path == tmp_path / "levels" / "room.txt"
+    assert maker.editor.session.edited.source.path == tmp_path / "levels" / "room.txt"
     assert victim.exists() == there
     assert not there or victim.read_text() == "mine"
 
@@ -364,13 +364,13 @@ def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: M
     choice = room.shown(LevelChoice)
     index = next(k for k, entry in enumerate(choice.shown) if entry.source == "yours")
     choice.play(index)
-    assert room.editor.session.source.path == own
+    assert room.editor.session.edited.source.path == own
     room.drag((300, 60))
     room.chord("s", pygame.KMOD_LCTRL)
     assert own.read_text("utf-8").startswith("; a comment\n")
     room.chord("o", pygame.KMOD_LCTRL)
     room.top().play(1)  # type: ignore[attr-defined]
-    assert room.editor.session.source.path is None
+    assert room.editor.session.edited.source.path is None
 
 
 def test_strings_of_n_travel_by_the_clipboard(room: Maker) -> None:
@@ -437,7 +437,7 @@ def test_good_levels_are_shown_with_notes_and_opened_as_copies(
     room.choose("Edit a copy")
     room.choose("Discard changes")
     assert isinstance(room.top(), EditorScreen)
-    assert (room.draft.name, room.editor.session.source.path) == ("Rolling Hills", None)
+    assert (room.draft.name, room.editor.session.edited.source.path) == ("Rolling Hills", None)
     room.wait(lambda: room.editor.session.certifier.text.startswith("Certified: "), "an unchanged copy's certificate")
 
 

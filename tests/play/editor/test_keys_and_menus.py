@@ -6,6 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import new_source
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.palette import SNAPS
@@ -85,7 +86,7 @@ def test_a_level_with_a_name_is_saved_without_a_question(room: Maker, tmp_path: 
     room.fill("Mine", "OK")
     room.chord("s", pygame.KMOD_LCTRL)
     assert isinstance(room.top(), EditorScreen)
-    assert room.editor.session.source.path == tmp_path / "levels" / "mine.txt"
+    assert room.editor.session.edited.source.path == tmp_path / "levels" / "mine.txt"
 
 
 def test_what_was_saved_is_said_in_the_editor_only(room: Maker) -> None:
@@ -128,10 +129,10 @@ def test_texts_of_the_buttons_above_the_level_have_room_at_both_ends(room: Maker
 
 def test_escape_gives_up_step_by_step_and_says_that_the_next_opens_the_menu(room: Maker) -> None:
     tools, view = room.editor.session.tools, room.editor.view
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     room.drag((60, 542))
     assert tools.selection
-    for tool, kept in (("select", "select"), ("rectangle", "brush")):
+    for tool, kept in ((Tool.SELECT, Tool.SELECT), (Tool.RECTANGLE, Tool.BRUSH)):
         left, tools.tool, view.hint = [], tool, ""
         for _ in range(2):
             room.press("escape")

@@ -7,6 +7,7 @@ from unittest.mock import patch
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.message_rows import Field, MessageRow
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.messages import MAX_LETTERS, Moment, level_text, parse_messages
@@ -119,7 +120,7 @@ def test_a_frame_is_drawn_moved_and_sized_by_the_mouse_its_other_edges_stay(room
 
 def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> None:
     room.put_says("at 12,12 8x3: One")
-    room.editor.session.tools.tool = "select"
+    room.editor.session.tools.tool = Tool.SELECT
     room.mouse(*room.at_cell(12, 12), click=False)
     room.frames(2)
     accent = room.app.theme.palette.accent

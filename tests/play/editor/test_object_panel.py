@@ -189,22 +189,22 @@ def test_a_drone_in_hand_or_selected_shows_its_round_as_it_will_be(room: Maker) 
     session, drone = room.editor.session, object_of_type("zap drone")
     room.press("shift+z")
     room.point(300, 540)
-    room.wait(lambda: session.at_pointer.drone_round, "the round of the drone in hand")
+    room.wait(lambda: session.edited.at_pointer.drone_round, "the round of the drone in hand")
     run = Simulation(with_stamp(room.draft, Stamp({}, (placed(drone, *session.tools.pointer, "cell"),))).level)
     thing = next(each for each in run.world.objects if each.kind == DRONE)
-    for place in session.at_pointer.drone_round[:300]:
+    for place in session.edited.at_pointer.drone_round[:300]:
         run.step_keys(0)
         assert (thing.x, thing.y) == place
     room.frames()
     assert any(isinstance(key, tuple) and key[0] == "route" for key in room.editor.view.sheet.marks)
     room.press("grave")
     room.frames()
-    assert not session.at_pointer.drone_round
+    assert not session.edited.at_pointer.drone_round
     room.drag((300, 540))
-    assert not session.at_pointer.drone_round
+    assert not session.edited.at_pointer.drone_round
     session.tools.history.change(with_stamp(ROOM, Stamp({}, (placed(drone, 300, 540, "cell"),))))
     session.tools.choose(frozenset({(len(room.draft.objects) - 1, BODY_PART)}))
-    room.wait(lambda: session.at_pointer.drone_round, "the round of the drone that is selected")
+    room.wait(lambda: session.edited.at_pointer.drone_round, "the round of the drone that is selected")
 
 
 def test_the_round_of_a_drone_where_it_was_before_is_not_shown(monkeypatch: pytest.MonkeyPatch) -> None:

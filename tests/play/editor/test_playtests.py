@@ -31,8 +31,8 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
     assert tools.history.done == history
-    assert len(room.editor.session.playtests.last_route) == 20
-    assert room.editor.session.playtests.last_route[0] == (60.0, 542.0)
+    assert len(room.editor.session.edited.playtests.last_route) == 20
+    assert room.editor.session.edited.playtests.last_route[0] == (60.0, 542.0)
     room.point(400, 100)
     room.press("f6")
     room.press("escape")
@@ -54,14 +54,14 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
         room.frames(70)
         room.press("r")
     room.press("escape")
-    session.playtests.maps.finish(LONGEST)
-    assert session.playtests.map
-    assert len(session.playtests.map.deaths) == 2
+    session.edited.playtests.maps.finish(LONGEST)
+    assert session.edited.playtests.map
+    assert len(session.edited.playtests.map.deaths) == 2
     room.frames()
-    died, _ = session.playtests.map.deaths
+    died, _ = session.edited.playtests.map.deaths
     assert 70 < died[0] < 100
-    assert session.playtests.map.visits == {(2, 22): 2, (3, 22): 2}
-    assert len(session.playtests.shown) == 2, "what is pressed after a death is no test"
+    assert session.edited.playtests.map.visits == {(2, 22): 2, (3, 22): 2}
+    assert len(session.edited.playtests.shown) == 2, "what is pressed after a death is no test"
     room.frames(2)
     x, y = room.app.canvas.point(*room.at(60, 500))
     assert room.app.surface.get_at((x, y)) == plain.get_at((x, y)), "nobody came there"
@@ -76,15 +76,17 @@ def test_a_map_shows_where_all_tests_came_and_died(room: Maker) -> None:
     assert not [key for key in marks if key[0] in ("visit", "death")], "the mine is gone"  # type: ignore[index]
     room.chord("y", pygame.KMOD_LCTRL)
     room.frames()
-    playtests = session.playtests
+    playtests = session.edited.playtests
     assert (len(playtests.shown), playtests.last_deaths) == (2, (died,)), "those of the level with the mine"
     tools = session.tools
     tools.selection = Selection(parts=frozenset({(len(session.draft.objects) - 1, BODY_PART)}))
-    tools.nudge(-1, 0)
+    tools.selected.nudge(-1, 0)
     session.add_playtest(session.draft.level, bytes([2] * 20), over=True)
-    assert len([*session.playtests.shown]) == 1, "a test in the picture of the change is of the changed level alone"
+    assert len([*session.edited.playtests.shown]) == 1, (
+        "a test in the picture of the change is of the changed level alone"
+    )
     session.begin(Source(ROOM))
-    assert session.playtests.map is None
+    assert session.edited.playtests.map is None
 
 
 def test_a_test_that_passes_comes_back_by_confirming(room: Maker) -> None:
@@ -123,7 +125,7 @@ def test_a_new_level_knows_nothing_of_the_one_before(room: Maker) -> None:
     session.add_playtest(level, bytes([2] * 20), over=True)
     room.frames(2)
     assert sum(key[0] == "route" and bool(mark.rects) for key, mark in room.editor.view.sheet.marks.items()) == 2  # type: ignore[index]
-    session.edited.source = replace(session.source, draft=session.draft)
+    session.edited.source = replace(session.edited.source, draft=session.draft)
     room.chord("n", pygame.KMOD_LCTRL)
     assert getattr(room.editor.properties.widgets[1], "text", "") not in FIRST_STEPS
     room.choose("Empty")

@@ -21,18 +21,18 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
     room.drag((300, 564))
     session = room.editor.session
     room.await_problems()
-    assert [finding.text for finding in session.examination.findings] == [
+    assert [finding.text for finding in session.edited.examination.findings] == [
         "it is inside a tile: its rockets explode at once"
     ]
     room.frames(2)
     assert [key for key in room.editor.view.sheet.marks if key[0] == "sign"]  # type: ignore[index]
     room.press("f4")
     assert session.tools.selection.parts == {(2, 0)}
-    assert "Move it, or clear the tile." in session.examination.findings[0].advice
+    assert "Move it, or clear the tile." in session.edited.examination.findings[0].advice
     assert room.editor.view.hint == "Problem 1 of 1: the list says how to fix it"
     room.press("delete")
     room.await_problems()
-    assert not session.examination.findings
+    assert not session.edited.examination.findings
     room.press("f4")
     assert "No problems" in room.app.notice
 
@@ -42,7 +42,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     exit_ = next(number for number, record in enumerate(level.objects) if record.kind == EXIT)
     why = obstacle(level, 0, Progress(untouched=(exit_,)))
     session.certifier.certification = Certification(level, seconds=20.0, obstacles=(why,), end="No run in 20 s")
-    room.wait(lambda: session.examination.findings[:1] == [why], "the problem")
+    room.wait(lambda: session.edited.examination.findings[:1] == [why], "the problem")
     room.press("f4")
     assert why.advice.endswith("Make the way there easier, or give the solver more time.")
     assert room.editor.view.hint.startswith("Problem 1 of ")
@@ -50,7 +50,7 @@ def test_what_kept_the_solver_from_a_run_is_the_first_problem_and_a_click_goes_t
     room.press("b")
     room.drag((300, 300))
     room.await_problems()
-    assert why not in session.examination.findings, "of another level"
+    assert why not in session.edited.examination.findings, "of another level"
 
 
 def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlier_one(room: Maker) -> None:
@@ -59,7 +59,7 @@ def test_other_findings_are_shown_though_their_list_has_the_address_of_an_earlie
     address = id(lists[0])
 
     def key() -> object:
-        with patch.object(type(part.session.examination), "findings", lists[-1]):
+        with patch.object(type(part.session.edited.examination), "findings", lists[-1]):
             part.update(0)
         return part.render_key()
 
@@ -83,7 +83,7 @@ def test_the_sign_of_a_finding_leaves_its_cause_visible(room: Maker) -> None:
 def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
     session = room.editor.session
     room.await_problems()
-    session.examination.job.result = Examined(
+    session.edited.examination.job.result = Examined(
         room.draft.level, [Finding("no-exit", "word " * 60), Finding("no-ninja", "none")]
     )
     room.frames(2)
@@ -97,7 +97,7 @@ def test_a_problem_is_shown_whole_where_there_is_room(room: Maker) -> None:
 def test_the_problem_that_f4_goes_to_is_in_sight_in_the_list(room: Maker) -> None:
     session = room.editor.session
     room.await_problems()
-    session.examination.job.result = Examined(
+    session.edited.examination.job.result = Examined(
         room.draft.level, [Finding("no-exit", f"word {number}") for number in range(12)]
     )
     part = next(part for part in room.editor.parts if isinstance(part, Findings))
@@ -112,8 +112,8 @@ def test_what_is_known_of_one_level_is_not_said_of_the_next(room: Maker) -> None
     session = room.editor.session
     room.await_problems()
     session.begin(Source(with_stamp(Draft(Level()), Stamp({(3, 3): 1}))))
-    examination, reaches = session.examination, session.at_pointer.reaches
+    examination, reaches = session.edited.examination, session.edited.at_pointer.reaches
     assert (examination.level, reaches.result, examination.findings) == (None, None, [])
     room.press("f4")
     assert "No problems" not in room.app.notice
-    assert session.examination.level is room.draft.level
+    assert session.edited.examination.level is room.draft.level

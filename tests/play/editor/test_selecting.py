@@ -6,6 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import new_source
 from ninja_game.editor.palette import object_of_type
 from ninja_game.editor.specs import points
@@ -104,7 +105,7 @@ def test_the_line_to_its_switch_is_drawn_for_what_is_selected_though_lines_are_h
 @pytest.mark.parametrize("how", ["key", "button"])
 def test_a_turn_that_leaves_the_level_is_refused_in_words(room: Maker, how: str) -> None:
     tools = room.editor.session.tools
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     tools.selection = Selection((1, 22, 6, 2))
     room.frames(2)
     before = room.draft
@@ -190,7 +191,7 @@ def test_a_middle_click_puts_nothing_that_is_in_hand(room: Maker) -> None:
     tools, before = room.editor.session.tools, room.draft
     room.drag((60, 542))
     room.chord("z", pygame.KMOD_LCTRL)
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     room.drag((40, 530), (70, 560))
     room.chord("c", pygame.KMOD_LCTRL)
     room.chord("v", pygame.KMOD_LCTRL)
@@ -222,7 +223,7 @@ def test_a_frame_over_its_cell_takes_a_launch_pad(room: Maker) -> None:
 def test_grey_buttons_that_align_say_why(room: Maker) -> None:
     tools = room.editor.session.tools
     every = [(number, part) for number, spec in enumerate(room.draft.objects) for part in points(spec)]
-    tools.tool = "select"
+    tools.tool = Tool.SELECT
     for text, why, enough in (("Left", "Align needs two", 2), ("Across", "Spread needs three", 3)):
         for count in (enough - 1, enough):
             tools.selection = Selection((2, 2, 3, 3), frozenset(every[:count]))

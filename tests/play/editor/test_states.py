@@ -8,6 +8,7 @@ from typing import Any
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.editor.palette import object_of_type
 from ninja_game.editor.solver import Certification, search_of
@@ -47,13 +48,13 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     room.frames()
     assert (listed.find.text, len(listed.shown)) == ("ninja", 1), "a click selects what was typed"
     brush = session.tools.brush
-    assert (brush.symmetry, session.at_pointer.start, brush.slopes) == ("left-right", "standing", True)
+    assert (brush.symmetry, session.edited.at_pointer.start, brush.slopes) == ("left-right", "standing", True)
     room.press("escape")
     room.press("shift+z", "a", "r")
     session.begin(Source(ROOM))
     room.frames()
-    assert (session.tools.brush.symmetry, session.at_pointer.start, session.tools.brush.slopes) == ("off", "off", True)
-    assert (session.tools.brush.draws_objects, session.tools.tool) == (False, "brush")
+    assert (brush.symmetry, session.edited.at_pointer.start, brush.slopes) == ("off", "off", True)
+    assert (session.tools.brush.draws_objects, session.tools.tool) == (False, Tool.BRUSH)
     assert session.tools.brush.spec == object_of_type("gold"), "nothing of the hand carries over"
     assert (listed.find.text, len(listed.shown)) == ("", 2)
     room.editor.focus = None
@@ -80,7 +81,7 @@ def test_the_editor_begins_with_a_room_without_problems(tmp_path: Path) -> None:
 
 def test_file_opens_its_menu_also_where_something_is_selected(room: Maker) -> None:
     tools = room.editor.session.tools
-    tools.tool, tools.selection = "select", everything(room.draft)
+    tools.tool, tools.selection = Tool.SELECT, everything(room.draft)
     room.choose("File")
     room.choose("New")
     room.choose("A room")
@@ -98,7 +99,7 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
     assert hints == ["Key at the pointer: F6", *(f"Key: {key}" for key in keys), ""]
     assert len(hints) == len(IN_MORE) + 2
     room.choose("What can be reached from the pointer")
-    assert room.editor.session.at_pointer.start == "standing"
+    assert room.editor.session.edited.at_pointer.start == "standing"
     room.choose("More")
     room.choose("Test with the ninja at a click")
     room.drag((300, 400))

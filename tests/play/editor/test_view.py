@@ -72,7 +72,7 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
 @pytest.mark.skipif(not compiled_available(), reason="needs Numba")
 def test_what_can_be_reached_follows_pointer_speed_and_level(room: Maker) -> None:
     session = room.editor.session
-    at = session.at_pointer
+    at = session.edited.at_pointer
 
     def shown(x: float, y: float) -> Reach:
         room.point(x, y)

@@ -3,6 +3,7 @@
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import Source
 from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.editor.specs import BODY_PART, points
@@ -101,14 +102,14 @@ def test_tools_draw_and_erase_where_the_mouse_is(near: Looker) -> None:
     near.cells((4, 18), (6, 18))
     assert [near.room.draft.tile((column, 18)) for column in range(3, 8)] == [0, 1, 1, 1, 0]
     near.cells((5, 18), button=3)
-    near.tools.tool = "rectangle"
+    near.tools.tool = Tool.RECTANGLE
     near.cells((9, 19), (10, 20))
-    near.tools.tool = "line"
+    near.tools.tool = Tool.LINE
     near.cells((4, 15), (8, 15))
     drawn = near.room.draft
     assert [drawn.tile((5, 18)), drawn.tile((10, 20)), drawn.tile((11, 20)), drawn.tile((8, 15))] == [0, 1, 0, 1]
     near.tools.pick_up(ObjectSpec(GOLD, (36.0, 36.0)))
-    near.tools.brush.snap, near.tools.tool = "quarter", "brush"
+    near.tools.brush.snap, near.tools.tool = "quarter", Tool.BRUSH
     near.cells((7, 19))
     x, y = middle_of((7, 19))
     near.drag(near.px((x + 31, y + 5)))
@@ -118,7 +119,7 @@ def test_tools_draw_and_erase_where_the_mouse_is(near: Looker) -> None:
 
 
 def test_what_is_selected_is_dragged_and_pasted(near: Looker) -> None:
-    near.tools.tool = "select"
+    near.tools.tool = Tool.SELECT
     ninja = points(near.room.draft.objects[0])[BODY_PART]
     near.drag(near.px(ninja), near.px((ninja[0] + 72, ninja[1])))
     assert points(near.room.draft.objects[0])[BODY_PART] == (ninja[0] + 72, ninja[1])
@@ -154,7 +155,7 @@ def test_the_middle_button_drags_the_level_and_picks_where_it_stays(near: Looker
 
 
 def test_what_is_dragged_beyond_an_edge_takes_the_level_along(near: Looker) -> None:
-    near.tools.tool = "rectangle"
+    near.tools.tool = Tool.RECTANGLE
     start, area = near.px(middle_of((8, 19))), near.view.overlay.area
     near.event(pygame.MOUSEMOTION, start)
     near.event(pygame.MOUSEBUTTONDOWN, start, 1)
@@ -202,7 +203,7 @@ def test_a_level_that_is_moved_keeps_what_was_drawn_and_draws_the_rest(near: Loo
 
 def test_a_path_is_seen_wherever_the_level_was_enlarged(near: Looker) -> None:
     near.view.camera.move(near.view.overlay.area.size, -900, -900)
-    near.room.editor.session.playtests.last_route = tuple((700.0 - k, 560.0) for k in range(200))
+    near.room.editor.session.edited.playtests.last_route = tuple((700.0 - k, 560.0) for k in range(200))
     near.view.repaint()
     near.room.frames(1)
     assert near.room.app.surface.get_at(near.px((650, 560)))[:3] == near.room.app.theme.palette.ghost[:3]
@@ -240,7 +241,7 @@ def test_all_that_lies_over_the_level_is_repaired_wherever_it_was_moved_to(
     near = Looker(room)
     near.view.show_grid(GRIDS[3])
     near.tools.brush.symmetry = "both"
-    room.editor.session.playtests.last_route = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
+    room.editor.session.edited.playtests.last_route = tuple((60.0 + k, 500.0 - k / 3) for k in range(400))
     if zoom == 4:
         near.view.zoom(1)
     # Signs come when the level has been examined.

@@ -56,7 +56,7 @@ def test_a_level_that_was_received_is_edited_only_if_that_is_meant(desk: Desk) -
         assert desk.shown(MenuScreen).title == "Received: Laundry"
         assert texts_of(desk.path) == before
         desk.choose(answer)
-        assert desk.shown(EditorScreen).session.source.path == file
+        assert desk.shown(EditorScreen).session.edited.source.path == file
         desk.leave_editor()
         assert desk.top() is browser
     assert not (desk.path / "received").exists()

@@ -35,7 +35,7 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(desk: Desk) 
     ]
     count = len(screen.problems)
     desk.press("return")
-    assert desk.shown(EditorScreen).session.source.path == level
+    assert desk.shown(EditorScreen).session.edited.source.path == level
     desk.leave_editor()
     desk.choose("Accept it...")
     before = (desk.path / "pack.toml").read_bytes()
@@ -78,7 +78,7 @@ def test_a_problem_of_a_message_leads_to_the_message(desk: Desk) -> None:
     assert (screen.list.index, screen.edited.rows[2].text) == (2, "Never")
     assert screen.focus is screen.form.fields[Field.TEXT]
     desk.choose("Cancel")
-    assert desk.shown(EditorScreen).session.source.path == level
+    assert desk.shown(EditorScreen).session.edited.source.path == level
     desk.leave_editor()
 
 

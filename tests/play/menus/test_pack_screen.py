@@ -216,7 +216,7 @@ def test_a_pad_alone_makes_a_pack_with_a_level_and_edits_it(empty_desk: Desk) ->
     button("dpad-down")
     button("a")
     assert titles(screen.shelves) == ["New level"]
-    assert empty_desk.shown(EditorScreen).session.source.path == screen.path / "new-level.txt"
+    assert empty_desk.shown(EditorScreen).session.edited.source.path == screen.path / "new-level.txt"
     empty_desk.shown(EditorScreen).session.close()
 
 
@@ -637,7 +637,7 @@ def test_the_editor_leads_to_the_packs_and_edits_what_is_opened_there(
     assert not own.exists()
     desk.press("escape")
     assert desk.top() is editor
-    assert (editor.session.source.path, editor.session.is_saved) == (desk.path / "mine.txt", True), (
+    assert (editor.session.edited.source.path, editor.session.is_saved) == (desk.path / "mine.txt", True), (
         "it follows its file"
     )
     editor.session.tools.history.change(editor.session.draft.with_tiles({(9, 9): 1}))
