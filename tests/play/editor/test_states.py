@@ -109,7 +109,7 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
 def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
     room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    levels, name = tmp_path / "levels", "00-0-first-steps"
+    levels, name = tmp_path / "levels", "00-0-run-and-hop"
     session, players = room.editor.session, []
 
     def played(*of: Any) -> Certification:
