@@ -2,6 +2,7 @@
 
 import re
 import tempfile
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -25,8 +26,7 @@ from tests.support.tas_driver import TasDriver
 from tools import ROOT
 
 PAGE, PICTURES = ROOT / "docs" / "good-levels.md", ROOT / "docs" / "pictures"
-LEVELS = ROOT / "levels"
-RUNS = LEVELS / "certificates"
+LEVELS, RUNS = ROOT / "levels", ROOT / "levels" / "certificates"
 HEAD = "## Ten of ours, read closely\n"
 
 
@@ -78,8 +78,7 @@ def tas_editor_picture(folder: Path) -> TasDriver:
     """A run in the TAS editor, some ticks selected, next to it one that goes another way from there on."""
     name = "10-0-springtime.exit.replay.txt"
     at = TasDriver(folder, Path(copy(RUNS / name, folder)), (1280, 800))
-    jumps = at.editor.track.replaced(150, 190, [6] * 25)
-    at.screen.level.others.open([at.session.recording(jumps, "Somebody else")])
+    at.screen.level.others.open([at.session.recording(at.editor.track.replaced(150, 190, [6] * 25), "Somebody else")])
     at.editor.edit(lambda track: track.named(146, "the ramp"))
     at.chord("s", pygame.KMOD_LCTRL)
     at.app.notify("")
@@ -88,7 +87,7 @@ def tas_editor_picture(folder: Path) -> TasDriver:
     return at
 
 
-SCREENS = {
+SCREENS: dict[str, Callable[[Path], pygame.Surface | MenuDriver]] = {
     "menu.png": menu_picture,
     "viewer.png": viewer_picture,
     "splits.png": splits_picture,

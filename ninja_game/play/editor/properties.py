@@ -102,7 +102,7 @@ def _turning(view: EditorView) -> _RowMaker:
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
-    """A title and rows about what is selected, pasted or in hand."""
+    """A title and rows about what is selected, pasted or in hand, and the table of keys as far as there is room."""
     x, y, w, _ = area
     tools = view.session.tools
     if view.message is not None:
@@ -121,18 +121,13 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
     flat = [widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets])]
     below = y + 21 + row * len(rows)
-    return [head, *flat, *_keys_below(tools, (x, below, w, y + area[3] - below))]
-
-
-def _keys_below(tools: EditorTools, area: Area) -> list[Widget]:
-    """The table of keys, as far as there is room for it."""
-    x, y, w, h = area
-    lines = list(key_table(tools).items())[: max(0, int(h // _KEY_HEIGHT))]
-    return [
-        Label((x + right, y + _KEY_HEIGHT * number, width, _KEY_HEIGHT), text, size=9, faint=bool(right))
+    lines = list(key_table(tools).items())[: max(0, int((y + area[3] - below) // _KEY_HEIGHT))]
+    keys = [
+        Label((x + right, below + _KEY_HEIGHT * number, width, _KEY_HEIGHT), text, size=9, faint=bool(right))
         for number, line in enumerate(lines)
         for text, right, width in zip(line, (0, 68), (66, w - 68), strict=True)
     ]
+    return [head, *flat, *keys]
 
 
 def _copying(tools: EditorTools) -> list[_RowMaker]:
