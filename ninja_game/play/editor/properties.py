@@ -121,7 +121,8 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
     flat = [widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets])]
     below = y + 21 + row * len(rows)
-    lines = list(key_table(tools).items())[: max(0, int((y + area[3] - below) // _KEY_HEIGHT))]
+    room = max(0, int((y + area[3] - 3 - below) // _KEY_HEIGHT))
+    lines = list(key_table(tools).items())[:room] if view.message is None else []
     keys = [
         Label((x + right, below + _KEY_HEIGHT * number, width, _KEY_HEIGHT), text, size=9, faint=bool(right))
         for number, line in enumerate(lines)

@@ -127,7 +127,7 @@ def test_a_level_of_the_players_own_pack_is_saved_into_the_pack(maker: Maker, tm
     maker.drag((300, 300))
     maker.chord("s", pygame.KMOD_LCTRL)
     files = sorted(path.name for path in (tmp_path / "levels").iterdir())
-    assert files == (["run-and-hop.txt", "laundry.zip"] if zipped else ["laundry"])
+    assert files == (["laundry.zip", "run-and-hop.txt"] if zipped else ["laundry"])
     saved = tmp_path / "levels" / "run-and-hop.txt" if zipped else folder / "00-0-run-and-hop.txt"
     assert load_levels(saved)[0].level == maker.draft.level
 
