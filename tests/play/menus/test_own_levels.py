@@ -70,7 +70,7 @@ def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(desk: Desk
     sources = [entry.source for entry in browser.shown]
     assert sources[0] == "yours"
     assert set(sources[1:9]) == {"Laundry"}
-    desk.type("rolling")
+    desk.type("slope")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     assert len(browser.shown) > 1
     browser.sort_by("name")
