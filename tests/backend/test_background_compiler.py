@@ -36,7 +36,7 @@ from tests.support.slow import the_rest_is_slow
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
 ALL_KINDS = known_level()
-NAMES = ("00-4-every-switch", "01-0-springboards", "01-1-watch-and-go", "01-2-no-hurry")
+NAMES = ("00-4-every-switch", "01-0-up-and-away", "01-1-watch-and-go", "01-2-no-hurry")
 
 
 class Compiler:

@@ -51,7 +51,7 @@ def layout(path: Path) -> dict[int, list[str]]:
 
 
 def test_levels_are_moved_between_episodes_and_out_of_them(pack: Path) -> None:
-    packs.place(pack, [LAST], 1, before="01-0-springboards.txt")
+    packs.place(pack, [LAST], 1, before="01-0-up-and-away.txt")
     packs.place(pack, [FIRST], 1)
     assert layout(pack) == {0: ["00-1", "00-2", "00-3", "00-4"], 1: ["01-2", "01-0", "01-1", "00-0"]}
     packs.place(pack, [FIRST], None)
@@ -341,7 +341,7 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(pack: Pa
 
 def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (pack / RUN).unlink()
-    other = "01-0-springboards.txt"
+    other = "01-0-up-and-away.txt"
     for file in Pack(pack).levels:
         if file not in (FIRST, other):
             packs.accept(pack, file, "no-gold-run", "a joke")

@@ -124,8 +124,8 @@ def test_the_order_of_levels_is_looked_at(pack: Path) -> None:
     assert findings(pack) == []
     change(pack / "pars.toml", "difficulty = 2.48", "difficulty = 6.00")
     assert findings(pack) == [], "what is accepted may be gone"
-    change(pack / "01-0-springboards.txt", "name: Springboards", "name: watch and go")
-    assert "01-1-watch-and-go.txt: the same name as 01-0-springboards.txt" in findings(pack)
+    change(pack / "01-0-up-and-away.txt", "name: Up and Away", "name: watch and go")
+    assert "01-1-watch-and-go.txt: the same name as 01-0-up-and-away.txt" in findings(pack)
 
 
 def test_an_episode_that_is_easier_than_the_one_before_is_named(pack: Path) -> None:
@@ -142,14 +142,14 @@ def test_an_episode_that_is_easier_than_the_one_before_is_named(pack: Path) -> N
     measure("01", 1.0, 1.0, 2.0)
     assert findings(pack) == [], "a medium level in both"
     measure("01", 1.0, 0.5, 1.2)
-    remark = "01-0-springboards.txt: each level of its episode is easier than those of the episode before"
+    remark = "01-0-up-and-away.txt: each level of its episode is easier than those of the episode before"
     assert findings(pack) == [remark]
-    accept(pack, "01-0-springboards.txt", "easier-episode", "a rest")
+    accept(pack, "01-0-up-and-away.txt", "easier-episode", "a rest")
     assert findings(pack) == []
 
 
 def test_two_levels_of_one_place_are_named(pack: Path) -> None:
-    (pack / "00-4-other.txt").write_text((pack / "01-0-springboards.txt").read_text().replace("...o", "....", 1))
+    (pack / "00-4-other.txt").write_text((pack / "01-0-up-and-away.txt").read_text().replace("...o", "....", 1))
     assert "00-4-other.txt: the place 00-4 is that of 00-4-every-switch.txt too" in findings(pack)
 
 
@@ -167,15 +167,15 @@ def test_certificates_are_run(pack: Path) -> None:
     change(pack / "00-1-stone-to-stone.txt", "@", ".")
     (certificates / "00-2-wall-to-wall.exit.replay.txt").write_text("nonsense")
     shutil.copy(certificates / f"{FIRST}.exit.replay.txt", certificates / f"{FIRST}.gold.replay.txt")
-    short = load_replays(certificates / "01-0-springboards.exit.replay.txt")[0]
-    (certificates / "01-0-springboards.exit.replay.txt").write_text(
+    short = load_replays(certificates / "01-0-up-and-away.exit.replay.txt")[0]
+    (certificates / "01-0-up-and-away.exit.replay.txt").write_text(
         write_replay(record_replay(short.level, short.replay.playback(100), ticks=100))
     )
     found = findings(pack)
     for expected in (
         "certificates/00-0-run-and-hop.gold.replay.txt: it takes 1 of 5 pieces of gold",
         "certificates/00-1-stone-to-stone.exit.replay.txt: the certificate is of an older version of the level, or",
-        "certificates/01-0-springboards.exit.replay.txt: outcome is running, --strict expects exit",
+        "certificates/01-0-up-and-away.exit.replay.txt: outcome is running, --strict expects exit",
     ):
         assert any(finding.startswith(expected) for finding in found)
     assert any(finding.startswith("certificates/00-2-wall-to-wall.exit.replay.txt") for finding in found)

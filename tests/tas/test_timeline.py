@@ -26,7 +26,7 @@ from tests.support.slow import the_rest_is_slow
 WALKED = parse_level_string(WALK)
 RUNS = {
     name: load_replays(PACK / "certificates" / f"{name}.exit.replay.txt")[0]
-    for name in ("00-4-every-switch", "01-0-springboards", "01-1-watch-and-go", "01-2-no-hurry")
+    for name in ("00-4-every-switch", "01-0-up-and-away", "01-1-watch-and-go", "01-2-no-hurry")
 }
 
 
@@ -113,7 +113,7 @@ def test_an_edit_keeps_what_comes_before_it() -> None:
 
 
 def test_states_of_a_timeline_begin_simulations() -> None:
-    recording = RUNS["01-0-springboards"]
+    recording = RUNS["01-0-up-and-away"]
     timeline = Timeline(recording.level, recording.inputs, memory="plain")
     timeline.simulate(10**6)
     for tick in (0, 59, 60, 61, recording.ticks, 10**9):

@@ -79,7 +79,7 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in desk.path.rglob("*") if file.is_file()}
     (made / "00-0-run-and-hop.txt").unlink()
-    (made / "00-1-stone-to-stone.txt").write_text((made / "01-0-springboards.txt").read_text("utf-8"), "utf-8")
+    (made / "00-1-stone-to-stone.txt").write_text((made / "01-0-up-and-away.txt").read_text("utf-8"), "utf-8")
     packs.new_level(made, "Fresh", "me")
     for file in ("00-2", "00-3", "00-4"):
         (level,) = made.glob(f"{file}-*.txt")

@@ -440,7 +440,7 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     desk.carry(desk.place(1), free, drop=False)
     desk.let_go(free, pygame.KMOD_LCTRL)
     assert desk.app.notice.startswith("Copied Run and Hop from Laundry")
-    assert desk.layout()[1][3:] == ["firs"]
+    assert desk.layout()[1][3:] == ["run-"]
     assert desk.layout()[0][0] == "00-0"
     desk.app.notify("")
     desk.carry(desk.place(1), desk.half(4))
