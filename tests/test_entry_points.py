@@ -46,10 +46,13 @@ def readers(source: str) -> set[str]:
 
 
 def rows() -> list[list[str]]:
-    """The rows of the tables in SECURITY.md: what comes in, from whom, what is promised, the limit."""
+    """The entries of the lists in SECURITY.md: what comes in, from whom, what is promised, the limit."""
     page = (ROOT / "SECURITY.md").read_text("utf-8").partition("\n## Entry points\n")[2].partition("\n## ")[0]
-    lines = [line for line in page.splitlines() if line.startswith("|")]
-    return [line[2:-2].split(" | ") for line in lines if not line.startswith(("|---", "| what comes in |"))]
+    entries = re.findall(r"^- .*(?:\n  .*)*", page, re.MULTILINE)
+    form = re.compile(r"- \*\*(.+?)\*\* \((.+?)\)\. (.+?)\. \*Limit:\* (.+)")
+    return [
+        list(match.groups()) if (match := form.fullmatch(" ".join(entry.split()))) else [entry] for entry in entries
+    ]
 
 
 def register() -> dict[str, dict[str, list[str]]]:

@@ -10,7 +10,7 @@ import pygame
 from ninja_game.editor.files import lost_drafts
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.bundled import bundled_replays
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Entry, Mood
@@ -81,6 +81,14 @@ class MainMenu(MenuScreen):
             return "There are no levels"
         return f"{'Go on with' if self.has_begun else 'Begin with'} {shown_text(self.run.entry.named.name)}"
 
+    def _how_much(self) -> str:
+        """The place of the level that comes, or to a new player how much there is to play."""
+        if self.has_begun and self.run is not None:
+            return self.run.entry.place
+        episodes = self.player.catalogue.episodes.values()
+        levels = sum(len(episode.levels) for episode in episodes)
+        return f"{counted(levels, 'level')} in {counted(len(episodes), 'episode')}"
+
     def _play(self) -> None:
         if self.run is not None:
             self.app.push(LevelScreen(self.app, self.run))
@@ -91,7 +99,7 @@ class MainMenu(MenuScreen):
     def entries(self) -> list[tuple[str, Action, str]]:
         """A button per screen: the first as wide as the panel, then two in a row; a last single one is wide again."""
         return [
-            ("Play", self._play, "Go on where you left off" if self.has_begun else "Start at the very beginning"),
+            ("Play", self._play, self._how_much()),
             ("Episodes", self._opener(EpisodeGrid), "Pick an episode, or any level in it"),
             ("Levels", self._opener(self._browser), "Play any open level on its own, or one of your own"),
             ("Daily", self._opener(DailyScreen), "A new level every day, the same for everyone"),

@@ -36,7 +36,7 @@ from tests.support.slow import the_rest_is_slow
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
 ALL_KINDS = known_level()
-NAMES = ("00-4-locksmith", "01-0-springtime", "01-1-night-shift", "01-2-the-works")
+NAMES = ("00-4-every-switch", "01-0-up-and-away", "01-1-watch-and-go", "01-2-no-hurry")
 
 
 class Compiler:
@@ -93,7 +93,7 @@ def test_a_run_that_goes_over_between_any_two_ticks_ends_alike(name: str, compil
 
 
 def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) -> None:
-    run = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
+    run = load_replays(PACK / "certificates" / "01-2-no-hurry.exit.replay.txt")[0]
     expected = verify_recording(run, "plain")
     assert proven_memory("auto") == CHECKED_LATER
     for ticks in (0, 1, 50, expected.ticks):
@@ -108,7 +108,7 @@ def test_a_verdict_is_the_same_wherever_the_run_goes_over(compiler: Compiler) ->
 
 
 def test_a_few_short_runs_are_not_worth_loading_numba(monkeypatch: pytest.MonkeyPatch) -> None:
-    run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
+    run = load_replays(PACK / "certificates" / "00-4-every-switch.exit.replay.txt")[0]
     work = tick_cost(run.level) * run.ticks
     monkeypatch.setattr(memories.PROCESS, "kernels", {})
     monkeypatch.setattr(memories.PROCESS, "short_work", PLAIN_WORK - 3 * work)
@@ -317,9 +317,9 @@ def test_the_command_leaves_nothing_to_compile_for_others(tmp_path: Path) -> Non
         assert out.startswith("All is compiled")
     assert are_cached([run_world], False)
     assert are_cached([run_world], True)
-    run = str(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")
+    run = str(PACK / "certificates" / "00-4-every-switch.exit.replay.txt")
     search = ("search", run, "--from", "0", "--to", "9", "--maximise", "x", "--seconds", "0.1", "--jobs", "1")
-    check = ("check", str(PACK / "00-4-locksmith.txt"), "--seconds", "1", "--gold", "both")
+    check = ("check", str(PACK / "00-4-every-switch.txt"), "--seconds", "1", "--gold", "both")
     for words in (
         ("verify", run),
         ("trace", run),

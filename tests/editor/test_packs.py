@@ -24,8 +24,8 @@ from ninja_game.search.certificate import read_certificate
 from ninja_game.search.task import Progress
 from tests.support.own_pack import PACK
 
-FIRST, LAST = "00-0-first-steps.txt", "01-2-the-works.txt"
-RUN = "certificates/00-0-first-steps.exit.replay.txt"
+FIRST, LAST = "00-0-run-and-hop.txt", "01-2-no-hurry.txt"
+RUN = "certificates/00-0-run-and-hop.exit.replay.txt"
 
 
 def _quiet(_text: str, _share: float | None) -> None:
@@ -51,17 +51,17 @@ def layout(path: Path) -> dict[int, list[str]]:
 
 
 def test_levels_are_moved_between_episodes_and_out_of_them(pack: Path) -> None:
-    packs.place(pack, [LAST], 1, before="01-0-springtime.txt")
+    packs.place(pack, [LAST], 1, before="01-0-up-and-away.txt")
     packs.place(pack, [FIRST], 1)
     assert layout(pack) == {0: ["00-1", "00-2", "00-3", "00-4"], 1: ["01-2", "01-0", "01-1", "00-0"]}
     packs.place(pack, [FIRST], None)
-    packs.place(pack, ["00-4-locksmith.txt"], None)
+    packs.place(pack, ["00-4-every-switch.txt"], None)
     assert layout(pack) == {0: ["00-1", "00-2", "00-3"], 1: ["01-2", "01-0", "01-1"]}
     assert (pack / "pack.toml").read_text("utf-8").startswith("# A pack for the tests, which stays")
-    for file in (FIRST, "00-1-mind-the-gap.txt"):
+    for file in (FIRST, "00-1-stone-to-stone.txt"):
         packs.place(pack, [file], 1)
     with pytest.raises(PackError, match="episode 2 is full"):
-        packs.place(pack, ["00-2-the-chimney.txt"], 1)
+        packs.place(pack, ["00-2-wall-to-wall.txt"], 1)
 
 
 def test_episodes_are_made_moved_renamed_and_removed(pack: Path) -> None:
@@ -180,21 +180,21 @@ def test_levels_go_to_another_pack_with_their_certificates(pack: Path, tmp_path:
     level = Pack(pack).levels[LAST]
     assert packs.transfer(level, other, keep=True) == LAST
     assert LAST in Pack(pack).levels
-    assert packs.transfer(level, other, keep=False) == "01-2-the-works-2.txt"
+    assert packs.transfer(level, other, keep=False) == "01-2-no-hurry-2.txt"
     assert LAST not in Pack(pack).levels
     assert Pack(pack).problems == []
     assert f"certificates/{LAST[:-4]}-2.exit.replay.txt" in Pack(other).files.names
     packs.rename_level(other / LAST, "Factory")
     copied = packs.duplicate(other, Pack(other).levels[LAST])
-    assert [level.name for level in Pack(other).levels.values()] == ["The Works", "Factory", "Factory copy"]
+    assert [level.name for level in Pack(other).levels.values()] == ["No Hurry", "Factory", "Factory copy"]
     assert copied == "factory-copy.txt"
     packs.duplicate(other, Pack(other).levels[LAST])
     assert "Factory copy 2" in {level.name for level in Pack(other).levels.values()}, "no two have one name"
 
 
 def test_a_pack_is_made_ready_and_only_what_changed_is_done_again(pack: Path, tmp_path: Path) -> None:
-    certificate = pack / "certificates" / "00-0-first-steps.exit.replay.txt"
-    other = pack / "certificates" / "00-1-mind-the-gap.exit.replay.txt"
+    certificate = pack / "certificates" / "00-0-run-and-hop.exit.replay.txt"
+    other = pack / "certificates" / "00-1-stone-to-stone.exit.replay.txt"
     kept = other.stat().st_mtime_ns
     accept_missing_gold(pack)
     certificate.unlink()
@@ -222,7 +222,7 @@ def test_levels_that_take_the_packs_author_are_named(pack: Path, monkeypatch: py
 
 def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two levels with two searches each, of 20 s as planned, of which the first takes half as long again."""
-    first, second = "00-0-first-steps", "00-1-mind-the-gap"
+    first, second = "00-0-run-and-hop", "00-1-stone-to-stone"
     for file in Pack(pack).levels:
         if not file.startswith((first, second)):
             packs.accept(pack, file, "no-gold-run", "not here")
@@ -244,7 +244,7 @@ def test_the_time_that_is_left_goes_by_the_time_that_was_measured(pack: Path, mo
     monkeypatch.setattr("ninja_game.search.solve.compile_solver", lambda: None)
     monkeypatch.setattr(ready_pack, "monotonic", lambda: now)
     ready_pack._certify(pack, {}, say=lambda text, share: progress_lines.append((text, share)), seconds=20.0, jobs=1)
-    first, second = "level 1 of 2, First Steps (exit and all gold)", "level 2 of 2, Mind the Gap (exit and all gold)"
+    first, second = "level 1 of 2, Run and Hop (exit and all gold)", "level 2 of 2, Stone to Stone (exit and all gold)"
     assert [text for text, _ in progress_lines if "so far" in text] == [
         f"Certifying {first}: 0 s so far, about 80 s left",
         f"Certifying {first}: 15 s so far, about 65 s left",
@@ -336,12 +336,12 @@ def test_what_was_searched_in_vain_or_is_accepted_is_not_searched_again(pack: Pa
     packs.take_back(pack, FIRST, "no-gold-run")
     assert "accept" not in (pack / "pack.toml").read_text("utf-8")
     prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet, obstacles=obstacles)
-    assert searched == ["First Steps"]
+    assert searched == ["Run and Hop"]
 
 
 def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (pack / RUN).unlink()
-    other = "01-0-springtime.txt"
+    other = "01-0-up-and-away.txt"
     for file in Pack(pack).levels:
         if file not in (FIRST, other):
             packs.accept(pack, file, "no-gold-run", "a joke")
@@ -361,7 +361,7 @@ def test_what_is_looked_for_is_said(pack: Path, monkeypatch: pytest.MonkeyPatch)
         "Compiling the solver, the first time on a machine a minute or more. You can go on"
     )
     assert progress_lines[1] == "Starting the search", "compiled once, it takes its time too"
-    assert progress_lines[2] == "Certifying level 1 of 2, First Steps (exit and all gold): 0 s so far, about 3 s left"
+    assert progress_lines[2] == "Certifying level 1 of 2, Run and Hop (exit and all gold): 0 s so far, about 3 s left"
     assert {"Certifying: 1 of 2 levels done", "Certifying: 2 of 2 levels done"} < {*progress_lines}
 
 
@@ -380,10 +380,10 @@ def test_a_broken_certificate_is_a_missing_run_of_its_own_kind(pack: Path, searc
     assert obstacles[missing].text.endswith("gold")
     packs.take_back(pack, FIRST, "no-gold-run")
     prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet)
-    assert searched == ["First Steps"]
+    assert searched == ["Run and Hop"]
     packs.accept(pack, gold, "certificate", "it stays so")
     prepare_pack(pack, seconds=1.0, jobs=1, say=_quiet)
-    assert searched == ["First Steps"], "what is accepted is not searched again"
+    assert searched == ["Run and Hop"], "what is accepted is not searched again"
 
 
 def test_the_command_makes_a_pack_ready(pack: Path, tmp_path: Path) -> None:

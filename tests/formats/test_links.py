@@ -122,7 +122,7 @@ def test_pack_brings_its_certificates_though_they_are_short() -> None:
     assert len(link) < 6100
     back = Pack(Path(link))
     assert list(lint(back)) == []
-    run = back.files.text("certificates/00-0-first-steps.exit.replay.txt")
+    run = back.files.text("certificates/00-0-run-and-hop.exit.replay.txt")
     assert "waypoints" not in run
     assert "level-data" not in run
 

@@ -23,12 +23,12 @@ def draws(count: int) -> NDArray[np.uint64]:
 
 def test_every_origin_gives_its_levels() -> None:
     first = load_level(bundled_levels()[0])
-    named = load_levels(PACK / "00-0-first-steps.txt")[0]
+    named = load_levels(PACK / "00-0-run-and-hop.txt")[0]
     origins: tuple[tuple[Origin, list[Level]], ...] = (
         ("00-0-first-steps", [first]),
         (first, [first]),
         (named, [named.level]),
-        (PACK / "00-0-first-steps.txt", [named.level]),
+        (PACK / "00-0-run-and-hop.txt", [named.level]),
         (str(PACK), [each.level for each in load_levels(PACK)]),
         (FLAT, [level_source(FLAT).levels[0]]),
         (["00-0-first-steps", named], [first, named.level]),

@@ -10,7 +10,7 @@ from ninja_game.play.app import App
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.scripted import ScriptedControls, scripted_app
 
-REPLAY = PACK / "certificates" / "00-0-first-steps.exit.replay.txt"
+REPLAY = PACK / "certificates" / "00-0-run-and-hop.exit.replay.txt"
 
 
 @pytest.fixture(autouse=True)

@@ -30,7 +30,7 @@ from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
-RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
+RUN = PACK / "certificates" / "00-2-wall-to-wall.exit.replay.txt"
 
 
 def test_a_window_waits_shortly_for_what_works_in_the_background(app: App) -> None:

@@ -25,6 +25,7 @@ from ninja_game.view.level_view import LevelView, OffscreenContext
 from ninja_game.view.overlays import OVERLAY_ACTIONS, Overlays, thinkers
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.drawings import paint_things
+from tests.support.first_level import STEPS, made_until
 from tests.support.own_pack import PACK
 from tests.support.recorded import ACCEPT
 from tools.draw import how_it_works, screens
@@ -86,18 +87,18 @@ def test_who_thinks_next_is_the_first_of_those_that_think() -> None:
 
 
 SCENES = {
-    "first-steps": lambda: scene(0, 120),
-    "chimney-dark": lambda: scene(2, 150, Settings(palette="dark")),
-    "locksmith-safe": lambda: scene(4, 200, Settings(palette="safe")),
-    "night-shift-contrast": lambda: scene(6, 160, Settings(palette="contrast")),
-    "works-safe-dark": lambda: scene(7, 200, Settings(palette="safe-dark")),
-    "works-overlays": lambda: scene(7, 140, overlays=True),
-    "works-passed": lambda: scene(7, 560),
+    "run-and-hop": lambda: scene(0, 120),
+    "wall-to-wall-dark": lambda: scene(2, 150, Settings(palette="dark")),
+    "every-switch-safe": lambda: scene(4, 200, Settings(palette="safe")),
+    "watch-and-go-contrast": lambda: scene(6, 160, Settings(palette="contrast")),
+    "no-hurry-safe-dark": lambda: scene(7, 200, Settings(palette="safe-dark")),
+    "no-hurry-overlays": lambda: scene(7, 140, overlays=True),
+    "no-hurry-passed": lambda: scene(7, 560),
     "death-explosive": lambda: scene(0, 60, fatal=EXPLOSIVE),
     "death-electric": lambda: scene(0, 60, fatal=ELECTRIC),
     "death-without-gore": lambda: scene(0, 60, Settings(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
     "drawings": lambda: paint_things(PALETTES["classic"]),
-    "thumbnail": lambda: thumbnail(load_levels(PACK / "01-2-the-works.txt")[0].level, PALETTES["classic"], 264),
+    "thumbnail": lambda: thumbnail(load_levels(PACK / "01-2-no-hurry.txt")[0].level, PALETTES["classic"], 264),
 }
 
 
@@ -143,6 +144,11 @@ def test_a_picture_of_the_documents_is_of_the_program_as_it_is(name: str) -> Non
     mean, worst = difference(shown, golden)
     assert mean <= MEAN_TOLERANCE, "run `python3 tools/dev.py docs`"
     assert worst <= BLOCK_TOLERANCE, "run `python3 tools/dev.py docs`"
+
+
+def test_the_steps_of_the_first_level_certify_and_save_it(tmp_path: Path) -> None:
+    made_until(STEPS[-1], tmp_path).close()
+    assert (tmp_path / "levels" / "certificates" / "first.exit.replay.txt").is_file()
 
 
 @pytest.mark.parametrize("file", [file for file in how_it_works.FIGURES if file.endswith(".png")])

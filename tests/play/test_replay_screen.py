@@ -32,7 +32,7 @@ from tests.support.own_pack import PACK
 from tests.support.page_scenes import settle
 from tests.support.scripted import frames, press, scripted_app, tap
 
-RUN = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
+RUN = load_replays(PACK / "certificates" / "01-2-no-hurry.exit.replay.txt")[0]
 
 
 def recording(name: str, level: Level, inputs: bytes) -> Recording:

@@ -10,7 +10,8 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.packs import accept
-from ninja_game.formats.load import load_replays
+from ninja_game.files.bundled import data_folder
+from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import write_replay
@@ -19,7 +20,7 @@ from ninja_game.runs.run import record_replay
 from ninja_game.runs.verify import STRICT
 from tests.support.own_pack import PACK
 
-FIRST = "00-0-first-steps"
+FIRST = "00-0-run-and-hop"
 
 
 @pytest.fixture(name="pack")
@@ -46,7 +47,7 @@ def test_nothing_is_odd_about_the_pack_of_the_tests(pack: Path) -> None:
 
 def test_index_is_looked_at(pack: Path) -> None:
     change(pack / "pack.toml", 'author = "the ninja-game developers"\n', "")
-    change(pack / "pack.toml", '"01-2-the-works.txt"', '"gone.txt"')
+    change(pack / "pack.toml", '"01-2-no-hurry.txt"', '"gone.txt"')
     with (pack / "pack.toml").open("a") as index:
         index.write('[[episode]]\nnumber = 12\nname = "Learning to fall"\n')
     assert findings(pack) == [
@@ -55,7 +56,7 @@ def test_index_is_looked_at(pack: Path) -> None:
         "pack.toml: column 1 has episodes and no name; expected 2 names in columns",
         "pack.toml:15: episode 12 has the name of episode 0",
         "pack.toml:15: episode 12 has no levels; expected files 12-….txt",
-        "01-2-the-works.txt: in no episode; it can be played as a single level",
+        "01-2-no-hurry.txt: in no episode; it can be played as a single level",
     ]
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert result.exit_code == 1
@@ -68,19 +69,19 @@ def test_index_is_looked_at(pack: Path) -> None:
 
 def test_levels_are_looked_at(pack: Path) -> None:
     shutil.copy(pack / f"{FIRST}.txt", pack / "00-1-again.txt")
-    (pack / "00-1-mind-the-gap.txt").unlink()
-    change(pack / "00-2-the-chimney.txt", "name: The Chimney\n", "")
-    (pack / "00-3-rolling-hills.txt").write_text("ninja-game level 1\nnonsense")
+    (pack / "00-1-stone-to-stone.txt").unlink()
+    change(pack / "00-2-wall-to-wall.txt", "name: Wall to Wall\n", "")
+    (pack / "00-3-long-slope.txt").write_text("ninja-game level 1\nnonsense")
     found = findings(pack)
     for expected in (
-        "00-1-again.txt: the same name as 00-0-first-steps.txt",
-        "00-1-again.txt: the same content as 00-0-first-steps.txt",
+        "00-1-again.txt: the same name as 00-0-run-and-hop.txt",
+        "00-1-again.txt: the same content as 00-0-run-and-hop.txt",
         "00-1-again.txt: no certificate, so nobody knows whether it can be passed",
-        "00-2-the-chimney.txt: no name",
+        "00-2-wall-to-wall.txt: no name",
     ):
         assert expected in found
-    assert any("00-1-mind-the-gap.exit.replay.txt: of no level here" in finding for finding in found)
-    assert any(finding.startswith("00-3-rolling-hills.txt:2:") for finding in found)
+    assert any("00-1-stone-to-stone.exit.replay.txt: of no level here" in finding for finding in found)
+    assert any(finding.startswith("00-3-long-slope.txt:2:") for finding in found)
 
 
 def test_certificates_of_a_level_that_cannot_be_read_are_not_strays(pack: Path) -> None:
@@ -91,10 +92,10 @@ def test_certificates_of_a_level_that_cannot_be_read_are_not_strays(pack: Path) 
 
 
 def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
-    change(pack / "00-2-the-chimney.txt", "name: The Chimney\n", "")
+    change(pack / "00-2-wall-to-wall.txt", "name: Wall to Wall\n", "")
     accept = '[[accept]]\nfile = "{}"\ncode = "no-name"\nreason = "found on the street"\n'
     with (pack / "pack.toml").open("a", encoding="utf-8") as index:
-        index.write(accept.format("00-2-the-chimney.txt") + accept.format("00-0-first-steps.txt"))
+        index.write(accept.format("00-2-wall-to-wall.txt") + accept.format("00-0-run-and-hop.txt"))
     assert findings(pack) == [], "an acceptance of what is not found is none"
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert (result.exit_code, result.output) == (0, "test pack: 2 episodes, 8 levels, nothing odd, 1 accepted\n")
@@ -116,15 +117,15 @@ def test_of_gold_out_of_reach_it_is_reported_once(pack: Path) -> None:
 
 def test_the_order_of_levels_is_looked_at(pack: Path) -> None:
     change(pack / "pars.toml", "difficulty = 0.39", "difficulty = 5.00")
-    before = "00-0-first-steps.txt: hard, harder than 00-1-mind-the-gap.txt (easy), but comes right before it"
-    assert findings(pack) == [before, "00-0-first-steps.txt: hard: the first level is the hardest of the pack"]
+    before = "00-0-run-and-hop.txt: hard, harder than 00-1-stone-to-stone.txt (easy), but comes right before it"
+    assert findings(pack) == [before, "00-0-run-and-hop.txt: hard: the first level is the hardest of the pack"]
     for code in ("hard-before-easy", "hardest-first"):
         accept(pack, f"{FIRST}.txt", code, "a wall to begin with")
     assert findings(pack) == []
     change(pack / "pars.toml", "difficulty = 2.48", "difficulty = 6.00")
     assert findings(pack) == [], "what is accepted may be gone"
-    change(pack / "01-0-springtime.txt", "name: Springtime", "name: night shift")
-    assert "01-1-night-shift.txt: the same name as 01-0-springtime.txt" in findings(pack)
+    change(pack / "01-0-up-and-away.txt", "name: Up and Away", "name: watch and go")
+    assert "01-1-watch-and-go.txt: the same name as 01-0-up-and-away.txt" in findings(pack)
 
 
 def test_an_episode_that_is_easier_than_the_one_before_is_named(pack: Path) -> None:
@@ -141,15 +142,15 @@ def test_an_episode_that_is_easier_than_the_one_before_is_named(pack: Path) -> N
     measure("01", 1.0, 1.0, 2.0)
     assert findings(pack) == [], "a medium level in both"
     measure("01", 1.0, 0.5, 1.2)
-    remark = "01-0-springtime.txt: each level of its episode is easier than those of the episode before"
+    remark = "01-0-up-and-away.txt: each level of its episode is easier than those of the episode before"
     assert findings(pack) == [remark]
-    accept(pack, "01-0-springtime.txt", "easier-episode", "a rest")
+    accept(pack, "01-0-up-and-away.txt", "easier-episode", "a rest")
     assert findings(pack) == []
 
 
 def test_two_levels_of_one_place_are_named(pack: Path) -> None:
-    (pack / "00-4-other.txt").write_text((pack / "01-0-springtime.txt").read_text().replace("...o", "....", 1))
-    assert "00-4-other.txt: the place 00-4 is that of 00-4-locksmith.txt too" in findings(pack)
+    (pack / "00-4-other.txt").write_text((pack / "01-0-up-and-away.txt").read_text().replace("...o", "....", 1))
+    assert "00-4-other.txt: the place 00-4 is that of 00-4-every-switch.txt too" in findings(pack)
 
 
 def test_a_link_in_a_pack_is_no_part_of_it(pack: Path, tmp_path: Path) -> None:
@@ -163,21 +164,21 @@ def test_a_link_in_a_pack_is_no_part_of_it(pack: Path, tmp_path: Path) -> None:
 
 def test_certificates_are_run(pack: Path) -> None:
     certificates = pack / "certificates"
-    change(pack / "00-1-mind-the-gap.txt", "@", ".")
-    (certificates / "00-2-the-chimney.exit.replay.txt").write_text("nonsense")
+    change(pack / "00-1-stone-to-stone.txt", "@", ".")
+    (certificates / "00-2-wall-to-wall.exit.replay.txt").write_text("nonsense")
     shutil.copy(certificates / f"{FIRST}.exit.replay.txt", certificates / f"{FIRST}.gold.replay.txt")
-    short = load_replays(certificates / "01-0-springtime.exit.replay.txt")[0]
-    (certificates / "01-0-springtime.exit.replay.txt").write_text(
+    short = load_replays(certificates / "01-0-up-and-away.exit.replay.txt")[0]
+    (certificates / "01-0-up-and-away.exit.replay.txt").write_text(
         write_replay(record_replay(short.level, short.replay.playback(100), ticks=100))
     )
     found = findings(pack)
     for expected in (
-        "certificates/00-0-first-steps.gold.replay.txt: it takes 1 of 5 pieces of gold",
-        "certificates/00-1-mind-the-gap.exit.replay.txt: the certificate is of an older version of the level, or",
-        "certificates/01-0-springtime.exit.replay.txt: outcome is running, --strict expects exit",
+        "certificates/00-0-run-and-hop.gold.replay.txt: it takes 1 of 5 pieces of gold",
+        "certificates/00-1-stone-to-stone.exit.replay.txt: the certificate is of an older version of the level, or",
+        "certificates/01-0-up-and-away.exit.replay.txt: outcome is running, --strict expects exit",
     ):
         assert any(finding.startswith(expected) for finding in found)
-    assert any(finding.startswith("certificates/00-2-the-chimney.exit.replay.txt") for finding in found)
+    assert any(finding.startswith("certificates/00-2-wall-to-wall.exit.replay.txt") for finding in found)
 
 
 @pytest.mark.parametrize("field", STRICT)
@@ -213,3 +214,10 @@ def test_pack_that_cannot_be_read_ends_with_its_line(pack: Path) -> None:
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert result.exit_code == 2
     assert "pack.toml:12: episode 0 is there twice; found line 8 too" in result.output
+
+
+def test_no_level_of_this_pack_is_called_as_one_of_the_games() -> None:
+    """A reader who sees a level of the tests must not take it for another."""
+    ours, tests = ({each.name.casefold() for each in load_levels(folder)} for folder in (data_folder("levels"), PACK))
+    slugs, other = ({file.stem[5:] for file in folder.glob("[0-9]*.txt")} for folder in (data_folder("levels"), PACK))
+    assert (len(tests), ours & tests, slugs & other) == (8, set(), set())

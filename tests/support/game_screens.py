@@ -440,10 +440,8 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     yield "packs-none"
     folder = driver.player.folder / "levels" / "laundry"
     shutil.copytree(PACK, folder, ignore=shutil.ignore_patterns("gallery", "README.md"))
-    index, level = folder / "pack.toml", folder / "00-1-mind-the-gap.txt"
-    index.write_text(
-        index.read_text("utf-8").replace("test pack", "Laundry").replace('-shift.txt", "', '", "'), "utf-8"
-    )
+    index, level = folder / "pack.toml", folder / "00-1-stone-to-stone.txt"
+    index.write_text(index.read_text("utf-8").replace("test pack", "Laundry").replace('-go.txt", "', '", "'), "utf-8")
     level.write_text(level.read_text("utf-8").replace("@", ".@", 1).replace(".@.", ".@", 1), "utf-8")
     screen = driver.shown(PackScreen)
     screen.enter()
@@ -511,9 +509,9 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         home(driver)
         pack = screen.file.parent
         pack.mkdir(parents=True)
-        for name in ("pack.toml", "pars.toml", "00-0-first-steps.txt"):
-            text = (PACK / name).read_text("utf-8").replace("00-0-first-steps.txt", screen.file.name)
-            (pack / name.replace("00-0-first-steps.txt", screen.file.name)).write_text(text, "utf-8")
+        for name in ("pack.toml", "pars.toml", "00-0-run-and-hop.txt"):
+            text = (PACK / name).read_text("utf-8").replace("00-0-run-and-hop.txt", screen.file.name)
+            (pack / name.replace("00-0-run-and-hop.txt", screen.file.name)).write_text(text, "utf-8")
         screen = driver.opened("Daily", DailyScreen)
         assert screen.entry is not None
         yield "daily"

@@ -48,7 +48,7 @@ class Desk(MenuDriver):
     @property
     def first(self) -> Path:
         """The file of the pack's first level."""
-        return self.path / "00-0-first-steps.txt"
+        return self.path / "00-0-run-and-hop.txt"
 
     def add_pack(self) -> None:
         """The tests' pack, by another name, comes into the player's folder."""

@@ -27,7 +27,7 @@ from tests.support.own_pack import PACK
 from tests.support.reference import ROOT
 from tests.support.tas_driver import TasDriver
 
-RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
+RUN = PACK / "certificates" / "00-4-every-switch.exit.replay.txt"
 
 
 def _points(points: Any) -> str:
@@ -147,7 +147,7 @@ class FixedSearch:
 
 def tas_editor(driver: MenuDriver) -> Iterator[str]:
     """The names of the states, one after the other; in the end the screen below is shown again."""
-    run = Path(copy(RUN, driver.player.folder / "locksmith.replay.txt"))
+    run = Path(copy(RUN, driver.player.folder / "every-switch.replay.txt"))
     with patch("ninja_game.tas_editor.span_results.SpanSearch", FixedSearch):
         at = TasDriver.over(driver, run)
         yield "tas"
@@ -158,7 +158,7 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
         at.choose_in_menu("Leave")
         yield "tas-leave-unsaved"
         at.choose("Discard changes")
-    waiting = OpeningScreen(driver.app, at.session.recording(at.editor.track, "Locksmith"), lambda: at.screen)
+    waiting = OpeningScreen(driver.app, at.session.recording(at.editor.track, "Every Switch"), lambda: at.screen)
     waiting.thread.join()
     waiting.update = Mock()  # type: ignore[method-assign]
     driver.app.push(waiting)

@@ -49,7 +49,7 @@ def test_a_text_with_few_ticks_or_none_is_a_run_on_a_level_that_is_given(text: s
 
 
 def test_the_levels_of_an_episode_are_edited_one_by_one_and_it_says_how_they_are_put_together(tmp_path: Path) -> None:
-    run = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")[0].replay
+    run = load_replays(PACK / "certificates" / "00-0-run-and-hop.exit.replay.txt")[0].replay
     file = tmp_path / "00.episode.txt"
     file.write_text(write_episode([run, run]))
     with pytest.raises(ReplayError, match="edit one with --record, 0 to 1; `ninja-game convert` puts the episode"):
@@ -58,8 +58,8 @@ def test_the_levels_of_an_episode_are_edited_one_by_one_and_it_says_how_they_are
 
 
 def test_a_level_is_opened_as_a_new_run_of_it(tmp_path: Path) -> None:
-    ours, records = PACK / "00-0-first-steps.txt", write_records(tmp_path / "n.txt", ("a", WALK, ""), ("b", WALK, ""))
-    assert open_run(ours).recording.name == "First Steps"
+    ours, records = PACK / "00-0-run-and-hop.txt", write_records(tmp_path / "n.txt", ("a", WALK, ""), ("b", WALK, ""))
+    assert open_run(ours).recording.name == "Run and Hop"
     with pytest.raises(LevelError, match=r"2 levels.*--record"):
         open_run(records)
     opened = open_run(records, record=1)
@@ -246,7 +246,7 @@ def test_texts_that_a_person_wrote_are_not_replaced(tmp_path: Path, change: obje
 
 def test_certificates_of_the_game_are_not_replaced(tmp_path: Path) -> None:
     with instead_of_ours():
-        file = PACK / "certificates" / "00-0-first-steps.exit.replay.txt"
+        file = PACK / "certificates" / "00-0-run-and-hop.exit.replay.txt"
         assert open_run(file).file == RunFile()
     copy = tmp_path / "copy.replay.txt"
     copy.write_bytes(file.read_bytes())

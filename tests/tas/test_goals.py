@@ -14,7 +14,7 @@ from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, collect_too, re
 from ninja_game.tas.session import TasSession
 from tests.support.own_pack import PACK
 
-RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
+RUN = PACK / "certificates" / "00-4-every-switch.exit.replay.txt"
 
 
 @pytest.fixture(name="session")

@@ -26,7 +26,7 @@ from tests.support.slow import the_rest_is_slow
 WALKED = parse_level_string(WALK)
 RUNS = {
     name: load_replays(PACK / "certificates" / f"{name}.exit.replay.txt")[0]
-    for name in ("00-4-locksmith", "01-0-springtime", "01-1-night-shift", "01-2-the-works")
+    for name in ("00-4-every-switch", "01-0-up-and-away", "01-1-watch-and-go", "01-2-no-hurry")
 }
 
 
@@ -73,7 +73,7 @@ def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: 
         track = InputTrack(
             with_press_bits(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
         )
-        timeline = Timeline(RUNS["01-2-the-works"].level, track.inputs, memory=memory)
+        timeline = Timeline(RUNS["01-2-no-hurry"].level, track.inputs, memory=memory)
         ids = [id_ for id_, seen in enumerate(timeline.initial) if seen[0] in {0, 9, 11}][:3]
         for _ in range(data.draw(st.integers(1, 6))):
             what = data.draw(st.sampled_from(["edit", "edit", "work", "need", "watch"]))
@@ -113,7 +113,7 @@ def test_an_edit_keeps_what_comes_before_it() -> None:
 
 
 def test_states_of_a_timeline_begin_simulations() -> None:
-    recording = RUNS["01-0-springtime"]
+    recording = RUNS["01-0-up-and-away"]
     timeline = Timeline(recording.level, recording.inputs, memory="plain")
     timeline.simulate(10**6)
     for tick in (0, 59, 60, 61, recording.ticks, 10**9):

@@ -708,7 +708,7 @@ def test_medals_stand_where_the_time_ranks_and_every_record_that_fell_is_reporte
     runs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("ninja_game.board.copies.near_to_another", lambda *_: None)
-    (recording,) = load_replays(PACK / "certificates" / "00-2-the-chimney.exit.replay.txt")
+    (recording,) = load_replays(PACK / "certificates" / "00-2-wall-to-wall.exit.replay.txt")
     for number, inputs in enumerate((b"\0" + recording.inputs, recording.inputs)):
         put(
             runs,

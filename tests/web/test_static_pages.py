@@ -133,16 +133,16 @@ def test_a_chat_shows_every_level_and_run_with_its_own_title_words_and_picture(s
 
 def test_a_runs_page_leads_to_the_game_the_level_and_the_file(site: Path, open_page: Callable[..., Any]) -> None:
     page = open_page("gallery/index.html", viewport=PHONE)
-    page.get_by_role("link", name="First Steps").click()
+    page.get_by_role("link", name="Run and Hop").click()
     page.get_by_role("link", name="To the exit").click()
-    page.get_by_role("heading", name="First Steps to the exit").wait_for()
+    page.get_by_role("heading", name="Run and Hop to the exit").wait_for()
     stem = Path(page.url).stem
     for name, leads in (("Watch this run", f"../play.html#watch={stem}"), ("The replay as a file", f"{stem}.txt")):
         assert page.get_by_role("link", name=name).get_attribute("href") == leads
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert (site / "replays" / f"{stem}.txt").is_file()
     page.get_by_role("link", name="The level", exact=True).click()
-    page.get_by_role("heading", name="First Steps").wait_for()
+    page.get_by_role("heading", name="Run and Hop").wait_for()
 
 
 @pytest.mark.slow
@@ -205,7 +205,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
     page.keyboard.press("Enter")
     page.locator("#content:focus").wait_for()
     page.keyboard.press("Tab")
-    page.keyboard.type("FIRST  steps")
+    page.keyboard.type("RUN  and hop")
     assert levels.count() == 1
     assert page.get_by_role("status").inner_text() == f"1 of {count} shown"
     for _ in range(20):

@@ -32,6 +32,8 @@ _RowMaker = Callable[[Area], Widget | Sequence[Widget]]  # makes the widgets of 
 
 _ROW_HEIGHT = 22.5  # px
 
+_KEY_HEIGHT = 13.0  # px of a line of the table of keys
+
 _MESSAGE_LINES = 4  # the most lines of a message in the panel
 
 _OPENS = "Its text, moment, place and frame; a double click on the bubble opens it too"
@@ -42,6 +44,27 @@ FIRST_STEPS = (
     "(Shift+E) with its switch. F5 plays",
 )
 """The panel's text for an empty level."""
+
+
+_TILE_KEYS = {"1 to 8": "shape", "Q W A S": "solid corner", "9, 0": "full, empty", "H J U": "mirror, flip, turn"}
+_DRAWING_KEYS = {"Right click": "erases", "Middle click": "picks"}
+_TOOL_KEYS = {
+    "select": {"Click": "selects", "Drag": "a frame selects", "Shift": "adds to it"},
+    "pick": {"Click": "takes what is there"},
+    "line": {"Wheel": "bends it", **_DRAWING_KEYS},
+}
+"""What the mouse does with each tool; with the others it draws."""
+
+
+def key_table(tools: EditorTools) -> dict[str, str]:
+    """What keys and mouse do to what is selected, pasted or in hand, with the present tool."""
+    if tools.ghost:
+        return {"H J U": _TILE_KEYS["H J U"], "Esc": "gives it up"}
+    changes = {" ".join(letters).upper(): name for name, letters in live_changes(tools).items()}
+    if tools.selection:
+        return {**changes, "Drag": "moves", "Ctrl+drag": "copies", "Del": "deletes"}
+    in_hand = changes if tools.about_objects else _TILE_KEYS
+    return {**in_hand, **_TOOL_KEYS.get(tools.effective_tool, _DRAWING_KEYS)}
 
 
 def panel_key(tools: EditorTools) -> tuple[object, ...]:
@@ -80,7 +103,7 @@ def _turning(view: EditorView) -> _RowMaker:
 
 
 def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
-    """A title and rows about what is selected, pasted or in hand."""
+    """A title and rows about what is selected, pasted or in hand, and the table of keys as far as there is room."""
     x, y, w, _ = area
     tools = view.session.tools
     if view.message is not None:
@@ -97,11 +120,16 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
     head, rows = Label((x, y, w, 15), title, size=10), [*_copying(tools), *rows]
     row = min(_ROW_HEIGHT, (area[3] - 17) / max(1, len(rows)))
     made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
-    return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
-
-
-def _hints(texts: Sequence[str]) -> list[_RowMaker]:
-    return [partial(Label, text=text, size=9.5, faint=True) for text in texts]
+    flat = [widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets])]
+    below = y + 21 + row * len(rows)
+    room = max(0, int((y + area[3] - 3 - below) // _KEY_HEIGHT))
+    lines = list(key_table(tools).items())[:room] if view.message is None else []
+    keys = [
+        Label((x + right, below + _KEY_HEIGHT * number, width, _KEY_HEIGHT), text, size=9, faint=bool(right))
+        for number, line in enumerate(lines)
+        for text, right, width in zip(line, (0, 68), (66, w - 68), strict=True)
+    ]
+    return [head, *flat, *keys]
 
 
 def _copying(tools: EditorTools) -> list[_RowMaker]:
@@ -149,11 +177,10 @@ def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
     """The selected object, or the one in hand."""
     spec = tools.selected.chosen or tools.brush.spec
     rows: list[_RowMaker] = [_choice(tools, name) for name in properties(spec)]
-    rows += _hints([f"{' '.join(letters).upper()}: {name}" for name, letters in live_changes(tools).items()])
     if tools.selection:
         rows += [_place(tools, part) for part in points(spec)]
     elif has_switch(spec):
-        rows += _hints(["Then click where its switch is"])
+        rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
     elif tools.effective_tool in CURVES:
         words = [(f"one every {spacing:.0f} px", spacing) for spacing in SPACINGS]
 
@@ -169,7 +196,6 @@ def _of_tile(view: EditorView) -> tuple[str, list[_RowMaker]]:
     tools, set_slopes, about = view.session.tools, view.session.set_slopes, EDITOR_COMMANDS.hint("slopes")
     first = FIRST_STEPS if tools.draft.level == Level() else ()
     rows: list[_RowMaker] = [partial(Label, text=text, size=9.5) for text in first]
-    rows += _hints(["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"])
     modes = [("slopes: by hand", False), ("slopes: by themselves", True)]
     rows.append(lambda area: Choice(area, "", modes, lambda: tools.brush.slopes, set_slopes, hint=about))
     return f"{_taking(tools)}: {tile_name(tools.brush.tile)}", rows
@@ -295,7 +321,7 @@ class Properties(EditorPart):
     def refresh(self) -> None:
         tools = self.session.tools
         message = self.view.message is not None and (self.view.message, tools.draft.says)
-        about = tools.tool == Tool.SELECT and tools.takes, tools.pastes_empty, message, *panel_key(tools)
+        about = tools.tool, tools.tool == Tool.SELECT and tools.takes, tools.pastes_empty, message, *panel_key(tools)
         if about != self._subject:
             self._subject = about
             x, y, w, h = self.area

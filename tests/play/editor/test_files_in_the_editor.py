@@ -122,13 +122,13 @@ def test_a_level_of_the_players_own_pack_is_saved_into_the_pack(maker: Maker, tm
         shutil.rmtree(folder)
     maker.open("Levels")
     maker.press("up")
-    maker.type("laundry first")
+    maker.type("laundry run")
     maker.choose("Edit")
     maker.drag((300, 300))
     maker.chord("s", pygame.KMOD_LCTRL)
     files = sorted(path.name for path in (tmp_path / "levels").iterdir())
-    assert files == (["first-steps.txt", "laundry.zip"] if zipped else ["laundry"])
-    saved = tmp_path / "levels" / "first-steps.txt" if zipped else folder / "00-0-first-steps.txt"
+    assert files == (["laundry.zip", "run-and-hop.txt"] if zipped else ["laundry"])
+    saved = tmp_path / "levels" / "run-and-hop.txt" if zipped else folder / "00-0-run-and-hop.txt"
     assert load_levels(saved)[0].level == maker.draft.level
 
 
@@ -407,7 +407,7 @@ def test_the_command_edit_opens_a_level(tmp_path: Path, monkeypatch: pytest.Monk
         return EditorScreen(app, source)
 
     monkeypatch.setattr("ninja_game.play.editor.screen.EditorScreen", editor)
-    for level in (["00-0-first-steps"], [os.path.relpath(bundled_levels()[0])], [str(file)], []):
+    for level in (["00-0-run-and-hop"], [os.path.relpath(bundled_levels()[0])], [str(file)], []):
         with pytest.raises(SystemExit) as ended:
             cli.main(["edit", *level, "--frames", "3", "--screenshot", str(picture)])
         assert ended.value.code == 0
@@ -448,7 +448,7 @@ def test_the_level_that_was_changed_last_is_the_first_to_open(room: Maker, tmp_p
         own.write_text(text.replace("First Steps", name), "utf-8")
         os.utime(own, (changed, changed))
     room.chord("o", pygame.KMOD_LCTRL)
-    assert [entry.title for entry in room.shown(LevelChoice).shown[:4]] == ["b", "c", "a", "First Steps"]
+    assert [entry.title for entry in room.shown(LevelChoice).shown[:4]] == ["b", "c", "a", "Run and Hop"]
     room.press("return")
     assert room.draft.name == "b"
 
@@ -459,7 +459,7 @@ def test_enter_in_the_search_opens_the_only_level_that_is_found(room: Maker) -> 
     choice = room.shown(LevelChoice)
     assert [choice.selected and choice.selected.source, choice.watch_author.enabled] == ["yours", False]
     assert "Certify" in choice.watch_author.hint
-    room.type("locksmith")
+    room.type("every switch")
     assert len(choice.shown) == 1
     room.press("return")
-    assert room.draft.name == "Locksmith"
+    assert room.draft.name == "Every Switch"

@@ -20,7 +20,7 @@ from ninja_game.play.editor.panels import FilePart
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import Menu
-from ninja_game.ui.widgets import Button
+from ninja_game.ui.widgets import Button, Choice
 from tests.support.draw_log import drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.menu_driver import MenuDriver
@@ -64,7 +64,7 @@ def test_what_belongs_to_a_level_ends_with_it_and_slopes_stay(room: Maker) -> No
     assert room.app.settings.slopes
     room.mouse(400, 60, click=False)
     assert "Slopes by themselves. " in drawn(room.app)
-    room.mouse(*room.editor.properties.widgets[-1].centre)
+    room.mouse(*[widget for widget in room.editor.properties.widgets if isinstance(widget, Choice)][-1].centre)
     room.choose_in_menu("Leave the editor")
     room.open("Editor")
     assert not room.editor.session.tools.brush.slopes, "the button below the tiles is the same switch"
@@ -110,7 +110,7 @@ def test_more_has_a_button_for_each_tool_of_tests_and_of_what_is_shown(room: Mak
 def test_the_certificate_of_the_same_level_counts_wherever_it_lies(
     room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    levels, name = tmp_path / "levels", "00-0-first-steps"
+    levels, name = tmp_path / "levels", "00-0-run-and-hop"
     session, players = room.editor.session, []
 
     def played(*of: Any) -> Certification:

@@ -52,7 +52,7 @@ def own(desk: Desk, screen: PackScreen) -> Path:
     """A level of the player's folder, which the tray shows."""
     file = desk.path.with_name("mine.txt")
     file.write_text(desk.first.read_text("utf-8"), "utf-8")
-    rewrite(file, "First Steps", "Mine")
+    rewrite(file, "Run and Hop", "Mine")
     screen.choose_tray("yours")
     screen.app.draw()
     return file

@@ -42,19 +42,19 @@ def test_levels_of_a_locked_episode_are_locked_everywhere(driver: MenuDriver) ->
 def test_play_goes_on_with_the_next_level(driver: MenuDriver) -> None:
     menu = driver.shown(MainMenu)
     assert isinstance(menu.focus, Button)
-    assert (menu.focus.detail, menu.focus.hint) == ("Begin with First Steps", "Start at the very beginning")
+    assert (menu.focus.detail, menu.focus.hint) == ("Begin with Run and Hop", "8 levels in 2 episodes")
     level = driver.open_level()
     level.begin()
     driver.play_replay(1)
     driver.press("q")
     assert driver.top() is menu
     assert isinstance(menu.focus, Button)
-    assert (menu.focus.detail, menu.focus.hint) == ("Go on with Mind the Gap", "Go on where you left off")
+    assert (menu.focus.detail, menu.focus.hint) == ("Go on with Stone to Stone", "Episode 1.1, level 2")
     driver.press("return")
     assert driver.shown(LevelScreen).playthrough.lifetime > 3000, "with the time that was left"
 
 
-@pytest.mark.parametrize("rows, title", [(0, "level 2: Mind the Gap"), (1, "level 1: First Steps")])
+@pytest.mark.parametrize("rows, title", [(0, "level 2: Stone to Stone"), (1, "level 1: Run and Hop")])
 def test_episode_left_half_way_goes_on_or_begins_again(driver: MenuDriver, rows: int, title: str) -> None:
     driver.press("return")
     driver.shown(LevelScreen).begin()
@@ -119,7 +119,7 @@ def test_nobody_is_stopped_by_one_level(driver: MenuDriver) -> None:
     assert not run.whole
     driver.press("q")
     driver.press("return")
-    assert driver.shown(LevelScreen).playthrough.title.endswith("Mind the Gap"), "play goes on behind it"
+    assert driver.shown(LevelScreen).playthrough.title.endswith("Stone to Stone"), "play goes on behind it"
 
 
 def test_slower_play_opens_what_follows_without_a_record(driver: MenuDriver) -> None:
@@ -180,7 +180,7 @@ def test_a_win_in_levels_leads_to_the_next_one_that_is_open(driver: MenuDriver) 
         assert end
         assert end.lines[-1].startswith("Space: next level    R: play again")
         driver.press("return")
-    assert titles == ["First Steps", "Mind the Gap"]
+    assert titles == ["Run and Hop", "Stone to Stone"]
     driver.press("q")
     last = next(k for k, each in enumerate(browser.shown) if each.place == "Episode 1.1, level 5")
     browser.play(last)

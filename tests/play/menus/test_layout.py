@@ -138,8 +138,8 @@ def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:
 
 @pytest.mark.parametrize("name", ["x" * 8000, "nul \x00 here", "日本語 with ascii", "\u202e turned \x1b[31m"])
 def test_any_name_of_a_level_is_shown(driver: MenuDriver, name: str) -> None:
-    text = (PACK / "00-0-first-steps.txt").read_text("utf-8")
-    named = text.replace("name: First Steps", f"name: {name}", 1)
+    text = (PACK / "00-0-run-and-hop.txt").read_text("utf-8")
+    named = text.replace("name: Run and Hop", f"name: {name}", 1)
     assert named != text
     (driver.player.folder / "levels" / "odd.txt").write_text(named, "utf-8")
     browser = driver.opened("Levels", Browser)

@@ -13,7 +13,7 @@ from tests.support.pack_desk import Desk, rewrite, texts_of
 
 def test_the_authors_run_of_ones_own_level_needs_no_medal(desk: Desk) -> None:
     desk.app.change_settings(name="the ninja-game team")
-    (desk.path / "certificates" / "00-1-mind-the-gap.exit.replay.txt").unlink()
+    (desk.path / "certificates" / "00-1-stone-to-stone.exit.replay.txt").unlink()
     browser = desk.opened("Levels", Browser)
     seen = []
     for name in ("the ninja-game team", "Ida"):
@@ -28,7 +28,7 @@ def test_the_authors_run_of_ones_own_level_needs_no_medal(desk: Desk) -> None:
 def test_ones_own_level_with_its_certificate_is_certified(desk: Desk) -> None:
     assert desk.player.settings.name == "", "whoever has no name has levels too"
     path = desk.path
-    rewrite(path / "00-1-mind-the-gap.txt", "@", ".", 1)
+    rewrite(path / "00-1-stone-to-stone.txt", "@", ".", 1)
     desk.open("Levels")
     for index, wanted_text in enumerate(("Certified: 3.900 s", "Not passed yet")):
         desk.shown(Browser).list.index = index
@@ -63,29 +63,29 @@ def test_a_level_that_was_received_is_edited_only_if_that_is_meant(desk: Desk) -
 
 
 def test_mine_first_counts_packs_and_a_name_is_found_before_a_comment(desk: Desk) -> None:
-    text = (desk.first).read_text("utf-8").replace("First Steps", "Zz")
-    text = re.sub(r"^comment: .*", "comment: as in Rolling Hills", text, flags=re.MULTILINE)
+    text = (desk.first).read_text("utf-8").replace("Run and Hop", "Zz")
+    text = re.sub(r"^comment: .*", "comment: as in Long Slope", text, flags=re.MULTILINE)
     (desk.path.parent / "z.txt").write_text(text, "utf-8")
     browser = desk.opened("Levels", Browser)
     sources = [entry.source for entry in browser.shown]
     assert sources[0] == "yours"
     assert set(sources[1:9]) == {"Laundry"}
-    desk.type("rolling")
+    desk.type("slope")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     assert len(browser.shown) > 1
     browser.sort_by("name")
     assert [entry.title for entry in browser.shown][-1] == "Zz"
     browser.sort_by("author")
-    assert browser.shown[0].title == "Rolling Hills"
+    assert browser.shown[0].title == "Long Slope"
 
 
 def test_a_certificate_that_comes_while_a_list_is_shown_is_seen(desk: Desk) -> None:
-    certificate = desk.path / "certificates" / "00-1-mind-the-gap.exit.replay.txt"
+    certificate = desk.path / "certificates" / "00-1-stone-to-stone.exit.replay.txt"
     text = certificate.read_bytes()
     certificate.unlink()
     desk.open("Levels")
     shown = desk.shown(Browser).shown
-    entry = next(each for each in shown if each.named.file == str(desk.path / "00-1-mind-the-gap.txt"))
+    entry = next(each for each in shown if each.named.file == str(desk.path / "00-1-stone-to-stone.txt"))
     assert desk.player.reached(entry, None) == "Not passed yet"
     assert desk.player.own_certificate(entry) is None
     certificate.write_bytes(text)

@@ -25,12 +25,12 @@ from tests.support.waiting import LONGEST
 
 def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(desk: Desk) -> None:
     level = desk.first
-    rewrite(level, "name: First Steps\n", "")
+    rewrite(level, "name: Run and Hop\n", "")
     desk.open_packs()
     desk.choose("Problems")
     screen = desk.problem_page()
     assert [problem.text for problem in screen.problems] == [
-        "00-0-first-steps: no name",
+        "00-0-run-and-hop: no name",
         "Make ready will look for all gold in 8 levels",
     ]
     count = len(screen.problems)
@@ -46,7 +46,7 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(desk: Desk) 
         desk.shown(FormPanel)
     desk.fill("found on the street", "OK")
     assert desk.problem_page() is screen
-    assert screen.problems[0].text == "00-0-first-steps: no name. Accepted: found on the street"
+    assert screen.problems[0].text == "00-0-run-and-hop: no name. Accepted: found on the street"
     assert (screen.list.index, screen.focus) == (0, screen.list), "the choice stays at its row"
     assert Pack(desk.path).index.accepted[0].reason == "found on the street"
     desk.choose("Take it back")
@@ -54,7 +54,7 @@ def test_a_problem_leads_to_its_place_and_is_accepted_with_a_reason(desk: Desk) 
     assert (len(screen.problems), Pack(desk.path).index.accepted) == (count, ())
     desk.choose("Accept it...")
     desk.fill("found on the street", "OK")
-    packs.rename_level(level, "First Steps")
+    packs.rename_level(level, "Run and Hop")
     desk.app.push(EpisodeGrid(desk.app, "Laundry"))
     desk.press("escape")
     desk.problem_page()
@@ -83,15 +83,15 @@ def test_a_problem_of_a_message_leads_to_the_message(desk: Desk) -> None:
 
 
 def test_problems_begin_with_the_first_open_one_whose_lines_lie_within_its_frame(desk: Desk) -> None:
-    for file in ("00-0-first-steps.txt", "00-1-mind-the-gap.txt"):
+    for file in ("00-0-run-and-hop.txt", "00-1-stone-to-stone.txt"):
         level = desk.path / file
         level.write_text(re.sub("name: .*\n", "", level.read_text("utf-8"), count=1), "utf-8")
-    packs.accept(desk.path, "00-0-first-steps.txt", "no-name", "found on the street, " * 8)
+    packs.accept(desk.path, "00-0-run-and-hop.txt", "no-name", "found on the street, " * 8)
     desk.open_packs()
     desk.choose("Problems")
     page = desk.problem_page()
     assert [problem.accepted for problem in page.problems] == [True, False, False]
-    assert (page.list.index, page.selected.text) == (1, "00-1-mind-the-gap: no name")
+    assert (page.list.index, page.selected.text) == (1, "00-1-stone-to-stone: no name")
     _, y, _, h = page.list.row_area(0)
     first, second = (float(top) for top in re.findall(r"street.* at 54,(\S+) size 10", drawn(desk.app)))
     assert (first - y, y + h - second - 13) == (6, 6), "as far from the upper edge as from the lower one"
@@ -166,17 +166,17 @@ def test_a_remark_about_the_order_names_levels_and_can_be_accepted(desk: Desk) -
     desk.open_packs()
     remarks = [problem for problem in desk.problems() if problem.accept]
     assert [problem.text for problem in remarks] == [
-        "First Steps: hard, harder than Mind the Gap (easy), but comes right before it",
-        "First Steps: hard: the first level is the hardest of the pack",
+        "Run and Hop: hard, harder than Stone to Stone (easy), but comes right before it",
+        "Run and Hop: hard: the first level is the hardest of the pack",
     ]
 
 
 def test_what_changed_is_marked(desk: Desk) -> None:
-    level = desk.path / "00-1-mind-the-gap.txt"
+    level = desk.path / "00-1-stone-to-stone.txt"
     rewrite(level, "@", ".", 1)
     screen = desk.open_packs()
     stale = [cell.level.title for cell in screen.shelves.cells if cell.level and cell.level.pars is None]
-    assert stale == ["Mind the Gap"]
+    assert stale == ["Stone to Stone"]
     assert screen.status.counts().startswith("8 levels in 2 episodes. Make ready will certify 1 level")
     desk.wait_for_check()
     assert [screen.status.state(cell.level) for cell in screen.shelves.cells if cell.level][1] == "changed"

@@ -129,7 +129,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go_on = Event()
-    certificate = desk.path / "certificates" / "00-0-first-steps.exit.replay.txt"
+    certificate = desk.path / "certificates" / "00-0-run-and-hop.exit.replay.txt"
     run = certificate.read_text("utf-8")
     certificate.unlink()
 
@@ -157,7 +157,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
     assert desk.button("Stop")
 
     def state() -> str:
-        [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "First Steps"]
+        [entry] = [cell.level for cell in screen.shelves.cells if cell.level and cell.level.title == "Run and Hop"]
         return screen.status.state(entry)
 
     assert state() == "no run yet", "though its time is measured"
@@ -185,7 +185,7 @@ def test_making_ready_goes_on_elsewhere_and_what_is_done_is_seen_at_once(
 def test_what_is_wrong_is_asked_about_before_the_work_and_once(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     packs.describe(desk.path, {"version": "1.1"})
     packs.place(desk.path, [packs.new_level(desk.path, "Brick", "me")], 1)
-    later = [pack_finding("same-name", "00-0-first-steps.txt", other="x")]
+    later = [pack_finding("same-name", "00-0-run-and-hop.txt", other="x")]
     begun = list[list[PackFinding]]()
 
     def made(folder: Path, **_: object) -> ReadyPack:
@@ -222,7 +222,7 @@ def test_what_is_wrong_is_asked_about_before_the_work_and_once(desk: Desk, monke
         assert desk.top() is screen
         assert screen.packer.saved
         assert screen.packer.saved.name == saved, "what is known is not asked about again, what is new is"
-        packs.place(desk.path, ["00-0-first-steps.txt"], 1)
+        packs.place(desk.path, ["00-0-run-and-hop.txt"], 1)
     assert len(begun) == 3
 
 
@@ -244,7 +244,7 @@ def test_what_was_made_ready_asks_only_at_its_own_desk(desk: Desk, monkeypatch: 
 
 
 def test_a_link_of_levels_without_certificate_is_asked_about(desk: Desk) -> None:
-    level = desk.path / "00-1-mind-the-gap.txt"
+    level = desk.path / "00-1-stone-to-stone.txt"
     rewrite(level, "@", ".", 1)
     screen, copied = desk.open_packs(), list[str]()
     with patch("pygame.scrap.put_text", copied.append):
@@ -264,8 +264,8 @@ def test_what_was_searched_in_vain_is_said_at_once_and_searched_longer_from_its_
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pack, go_on, seconds_each, known_each = Pack(desk.path), Event(), list[float](), list[int]()
-    (desk.path / "certificates" / "00-0-first-steps.exit.replay.txt").unlink()
-    level = pack.levels["00-0-first-steps.txt"].level
+    (desk.path / "certificates" / "00-0-run-and-hop.exit.replay.txt").unlink()
+    level = pack.levels["00-0-run-and-hop.txt"].level
 
     def made(folder: Path, *, seconds: float, jobs: int, say: Say, obstacles: Obstacles) -> ReadyPack:
         seconds_each.append(seconds)
@@ -303,7 +303,7 @@ def test_making_ready_is_stopped(desk: Desk, monkeypatch: pytest.MonkeyPatch) ->
             say("Certifying", 0.5)
 
     monkeypatch.setattr("ninja_game.play.menus.packer.prepare_pack", endless)
-    (desk.path / "certificates" / "00-0-first-steps.exit.replay.txt").unlink()
+    (desk.path / "certificates" / "00-0-run-and-hop.exit.replay.txt").unlink()
     screen = desk.open_packs()
     assert "text 'no run yet' at" in drawn(desk.app)
     desk.choose("Make ready")

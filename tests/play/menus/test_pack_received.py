@@ -78,8 +78,8 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
     desk.choose("Not now")
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in desk.path.rglob("*") if file.is_file()}
-    (made / "00-0-first-steps.txt").unlink()
-    (made / "00-1-mind-the-gap.txt").write_text((made / "01-0-springtime.txt").read_text("utf-8"), "utf-8")
+    (made / "00-0-run-and-hop.txt").unlink()
+    (made / "00-1-stone-to-stone.txt").write_text((made / "01-0-up-and-away.txt").read_text("utf-8"), "utf-8")
     packs.new_level(made, "Fresh", "me")
     for file in ("00-2", "00-3", "00-4"):
         (level,) = made.glob(f"{file}-*.txt")
@@ -87,7 +87,7 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
     packs.describe(made, {"version": "1.1"})
     drop()
     assert desk.shown(MenuScreen).title == "You have Laundry in another version"
-    news = "1 level new: Fresh; 4 levels changed; 1 level gone: First Steps"
+    news = "1 level new: Fresh; 4 levels changed; 1 level gone: Run and Hop"
     assert news in drawn(desk.app), "the texts of a level count too"
     desk.choose("Update it")
     desk.choose("Not now")
@@ -260,7 +260,7 @@ def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(desk: Desk) -
     screen.choose_tray("yours")
     desk.carry(desk.place(1), screen.tray.area)
     assert texts_of(received) == before, "taken from it, a level is copied"
-    assert (screen.folder / "00-0-first-steps.txt").is_file()
+    assert (screen.folder / "00-0-run-and-hop.txt").is_file()
     drag()
     desk.choose("Copy it, to change that")
     assert (screen.pack and screen.pack.name, texts_of(received)) == ("Laundry copy", before)

@@ -45,7 +45,7 @@ def test_a_level_lands_on_the_side_of_a_card_where_it_is_let_go(desk: Desk, scre
     x, y, w, _ = desk.place(5)
     assert "The colours of a level go by its place" in drawn(desk.app)
     seen, mark = drawn(desk.app), f"fill accent {px(x + w - 2, y + 4)} 4 x"
-    assert seen.index(mark) > seen.index("First Steps' at 577,"), "not behind what is held"
+    assert seen.index(mark) > seen.index("Run and Hop' at 577,"), "not behind what is held"
     desk.mouse_up(desk.half(5, right=True))
     assert desk.layout()[0] == ["00-1", "00-2", "00-3", "00-4", "00-0"]
     desk.carry(desk.place(5), desk.half(2, right=True))
@@ -103,7 +103,7 @@ def test_several_levels_are_marked_and_moved_copied_taken_out_and_deleted_at_onc
     screen.enter()
     desk.click(desk.place(3))
     editor = desk.shown(EditorScreen)
-    assert editor.session.name == "Mind the Gap", "a second click opens the editor, however late it comes"
+    assert editor.session.name == "Stone to Stone", "a second click opens the editor, however late it comes"
     editor.commands.close()
     desk.click(desk.place(3))
     assert desk.top() is screen, "back here it takes two clicks again"
@@ -147,7 +147,7 @@ def test_a_level_is_a_calm_frame_above_its_name_until_its_picture_is_made(
         desk.open_packs()
         seen = drawn(desk.app)
         assert len(re.findall(frame, seen)) == 8
-        assert "text 'First Steps'" in seen
+        assert "text 'Run and Hop'" in seen
     desk.wait(lambda: not re.search(frame, drawn(desk.app)))
 
 
@@ -155,14 +155,14 @@ def test_levels_and_episodes_are_dragged(desk: Desk, screen: PackScreen) -> None
     desk.carry(desk.place(2), desk.half(8))
     assert desk.layout() == {0: ["00-0", "00-2", "00-3", "00-4"], 1: ["01-0", "00-1", "01-1", "01-2"]}
     assert (
-        desk.app.notice == "Moved Mind the Gap to episode 2; colours follow the place. Undo, or Ctrl+Z, takes it back"
+        desk.app.notice == "Moved Stone to Stone to episode 2; colours follow the place. Undo, or Ctrl+Z, takes it back"
     )
     desk.carry(desk.place(1), screen.tray.area)
     assert desk.layout()[0] == ["00-2", "00-3", "00-4"]
-    assert titles(screen.tray) == ["First Steps"]
+    assert titles(screen.tray) == ["Run and Hop"]
     assert (
         desk.app.notice
-        == "Moved First Steps out of its episode; colours follow the place. Undo, or Ctrl+Z, takes it back"
+        == "Moved Run and Hop out of its episode; colours follow the place. Undo, or Ctrl+Z, takes it back"
     )
     desk.carry(screen.tray.row_area(0), desk.place(13))
     assert desk.layout()[2] == ["00-0"], "a row below the others is a new episode"
@@ -249,7 +249,7 @@ def test_everything_about_a_pack_is_named_again(desk: Desk, screen: PackScreen) 
     desk.choose("OK")
     pack = Pack(desk.path)
     assert (pack.index.version, pack.index.episodes[0].name) == ("2", "Falls")
-    assert pack.levels["00-0-first-steps.txt"].name == "Early steps"
+    assert pack.levels["00-0-run-and-hop.txt"].name == "Early steps"
     desk.choose("More...")
     desk.choose("Copy of the pack")
     assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry copy"]
@@ -283,7 +283,7 @@ def test_levels_of_days_are_no_pack_of_ones_own(desk: Desk) -> None:
 
 
 def test_what_the_editor_certified_is_certified_in_the_folder_too(desk: Desk) -> None:
-    levels, name = desk.path.parent, "00-0-first-steps"
+    levels, name = desk.path.parent, "00-0-run-and-hop"
     shutil.copy(desk.path / f"{name}.txt", levels)
     screen = desk.open_packs()
     screen.choose_tray("yours")
@@ -406,8 +406,8 @@ def test_what_is_done_at_the_desk_is_undone_step_by_step(desk: Desk) -> None:
     assert "All goes to the folder deleted; Undo brings it back" in drawn(desk.app)
     desk.choose("Delete it")
     assert Packer(desk.app).steps == screen.packer.steps, "so it is when the program runs again"
-    commands = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename First Steps", "Move First Steps"]
-    for what in [*commands, "Move Mind the Gap"]:
+    commands = ["Delete Laundry", "New pack", "Take out Things that hum", "Rename Run and Hop", "Move Run and Hop"]
+    for what in [*commands, "Move Stone to Stone"]:
         assert desk.button("Undo").hint == f"Ctrl+Z: {what}"
         desk.chord("z", pygame.KMOD_LCTRL)
         assert desk.app.notice == f"Undone: {what}"
@@ -439,12 +439,12 @@ def test_a_level_that_comes_from_elsewhere_is_moved_or_with_ctrl_copied_and_that
     desk.app.notify("")
     desk.carry(desk.place(1), free, drop=False)
     desk.let_go(free, pygame.KMOD_LCTRL)
-    assert desk.app.notice.startswith("Copied First Steps from Laundry")
-    assert desk.layout()[1][3:] == ["firs"]
+    assert desk.app.notice.startswith("Copied Run and Hop from Laundry")
+    assert desk.layout()[1][3:] == ["run-"]
     assert desk.layout()[0][0] == "00-0"
     desk.app.notify("")
     desk.carry(desk.place(1), desk.half(4))
-    assert desk.app.notice == "Moved First Steps to episode 1; colours follow the place. Undo, or Ctrl+Z, takes it back"
+    assert desk.app.notice == "Moved Run and Hop to episode 1; colours follow the place. Undo, or Ctrl+Z, takes it back"
 
 
 def test_the_disk_is_read_again_only_when_it_changed(desk: Desk, screen: PackScreen) -> None:
@@ -498,7 +498,7 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(desk: Desk) -> None:
     with patch.object(listed.thumbnails, "draw") as draw:
         assert "8 levels in 2 episodes" in drawn(desk.app)
     titles = [each.args[1].title for each in draw.call_args_list]
-    assert titles[:4] == ["First Steps", "The Chimney", "Locksmith", "Night Shift"], "four of the eight"
+    assert titles[:4] == ["Run and Hop", "Wall to Wall", "Every Switch", "Watch and Go"], "four of the eight"
     desk.press("down")
     desk.type("developers")
     assert (len(listed.shown), listed.list.index) == (2, 0), "Enter takes the row that is marked"
@@ -508,7 +508,7 @@ def test_a_menu_opens_at_the_name_of_the_pack_and_at_a_card(desk: Desk) -> None:
     assert desk.top() is screen
     assert (screen.pack and screen.pack.name) == "Laundry"
     assert "text 'Laundry'" in drawn(desk.app)
-    assert right_click(desk.place(1)).title == "First Steps"
+    assert right_click(desk.place(1)).title == "Run and Hop"
     desk.choose("Cancel")
     assert right_click(desk.place(0)).title == "Learning to fall"
     desk.choose("Cancel")
@@ -520,7 +520,7 @@ def test_what_is_taken_out_is_seen_beside_the_shelves(desk: Desk, screen: PackSc
     screen.choose_tray("yours")
     pack_menus.level_menu(screen, screen.shelves.cells[1])
     desk.choose("Take out")
-    assert titles(screen.tray) == ["First Steps"]
+    assert titles(screen.tray) == ["Run and Hop"]
     screen.choose_tray("yours")
     screen.choose(screen.shelves.cells[0])
     desk.choose("Remove the episode")
@@ -652,7 +652,7 @@ def test_the_editor_leads_to_the_packs_and_edits_what_is_opened_there(
         desk.click(shown.shelves.row_area(1))
     desk.choose("Discard changes")
     assert desk.top() is editor
-    assert editor.session.name == "First Steps"
+    assert editor.session.name == "Run and Hop"
     shelves_of_the_editor()
     desk.choose("Problems")
     page = desk.problem_page()

@@ -30,7 +30,7 @@ from tests.support.own_pack import PACK
 def other_pack(folder: Path, numbers: tuple[int, ...] = (2, 17)) -> Path:
     """The tests' pack by another name, with its first episode in other places."""
     shutil.copytree(PACK, folder)
-    episodes = "".join(f'[[episode]]\nnumber = {n}\nlevels = ["00-0-first-steps.txt"]\n' for n in numbers)
+    episodes = "".join(f'[[episode]]\nnumber = {n}\nlevels = ["00-0-run-and-hop.txt"]\n' for n in numbers)
     (folder / "pack.toml").write_text(f'name = "Other"\ncolumns = ["Left", "Right"]\n{episodes}')
     return folder
 
@@ -223,8 +223,8 @@ def test_all_problems_of_files_are_shown_whole(driver: MenuDriver) -> None:
 def test_what_is_typed_is_searched_for_without_a_click_on_the_field(driver: MenuDriver) -> None:
     browser = driver.opened("Levels", Browser)
     driver.press("down")
-    driver.type("gap")
-    assert [entry.title for entry in browser.shown] == ["Mind the Gap"]
+    driver.type("stone")
+    assert [entry.title for entry in browser.shown] == ["Stone to Stone"]
 
 
 def test_nothing_can_be_done_with_no_level(driver: MenuDriver) -> None:

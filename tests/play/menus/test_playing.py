@@ -113,7 +113,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     assert isinstance(again.top(), ReplayScreen)
     again.press("escape", "escape")
     replays = again.opened("Replays", ReplaysScreen)
-    assert replays.rows[0].text == "First Steps"
+    assert replays.rows[0].text == "Run and Hop"
     again.press("delete")
     assert again.player.records.level_bests()
     again.close()

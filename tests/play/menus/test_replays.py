@@ -79,7 +79,7 @@ def test_authors_runs_are_there_where_a_gold_medal_has_opened_them(driver: MenuD
     assert first.pars is not None
     driver.player.marks.passed(first.digest, first.pars.par("gold"), 0)
     screen = driver.opened("Replays", ReplaysScreen)
-    assert {row.text for row in screen.rows} == {"First Steps"}
+    assert {row.text for row in screen.rows} == {"Run and Hop"}
 
 
 def test_rows_say_exit_or_gold_and_authors_have_one_name(driver: MenuDriver) -> None:

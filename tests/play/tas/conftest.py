@@ -14,7 +14,7 @@ from ninja_game.tas_editor.tabs.search_tab import SearchTab
 from tests.support.own_pack import PACK
 from tests.support.tas_driver import TasDriver
 
-RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
+RUN = PACK / "certificates" / "00-2-wall-to-wall.exit.replay.txt"
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -305,7 +305,7 @@ def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:
 
 def test_edit_in_the_viewer_opens_the_tas_editor(tmp_path: Path) -> None:
     runs = load_replays(write_records(tmp_path / "demos.txt", ("a", WALK, running(23)), ("b", WALK, running(9))))
-    other = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")
+    other = load_replays(PACK / "certificates" / "00-0-run-and-hop.exit.replay.txt")
     with scripted_app() as (app, _):
         app.tas_editor = open_tas_editor
         viewer = ReplayScreen(app, [*runs, *other])

@@ -37,7 +37,7 @@ from tests.support.own_pack import PACK
 from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 from tests.support.tas_driver import TasDriver
 
-RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
+RUN = PACK / "certificates" / "01-2-no-hurry.exit.replay.txt"
 
 
 @pytest.fixture
@@ -338,7 +338,7 @@ def test_a_run_beside_says_who_made_it(at: TasDriver, tmp_path: Path) -> None:
 
 def test_a_run_of_another_level_is_refused(at: TasDriver) -> None:
     screen = at.screen
-    elsewhere = PACK / "certificates" / "00-0-first-steps.exit.replay.txt"
+    elsewhere = PACK / "certificates" / "00-0-run-and-hop.exit.replay.txt"
     with pytest.raises(ReplayError, match="another level"):
         screen.level.others.open(load_replays(elsewhere))
     with pytest.raises(ReplayError, match="no run of"):
@@ -356,7 +356,7 @@ def test_the_list_of_other_runs_has_those_of_the_level(at: TasDriver) -> None:
             break
         at.frames()
     assert listed.rows
-    assert all("the-works" in row.text for row in listed.rows), "names of files"
+    assert all("no-hurry" in row.text for row in listed.rows), "names of files"
     at.press("return")
     at.frames()
     assert at.top() is screen
@@ -448,7 +448,7 @@ def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: TasDriver) ->
 def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     copy(RUN, tmp_path / "other.replay.txt")
     (tmp_path / "notes.txt").write_text("nothing of ours")
-    copy(PACK / "certificates" / "00-0-first-steps.exit.replay.txt", tmp_path / "elsewhere.replay.txt")
+    copy(PACK / "certificates" / "00-0-run-and-hop.exit.replay.txt", tmp_path / "elsewhere.replay.txt")
     at.chord("o", pygame.KMOD_LCTRL)
     listed = at.shown(OtherRunScreen)
     assert [row.when for row in listed.rows].count("Same folder") == 1
