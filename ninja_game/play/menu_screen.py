@@ -329,10 +329,10 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), height, side = self._box, self.row_height, self.side
-        width, high = w - 2 * side, 0.8 * height
+        (x, y, w, _), row_height, side = self._box, self.row_height, self.side
+        width, height = w - 2 * side, 0.8 * row_height
         return [
-            Button((x + side, y + self.head + height * k, width, high), text, action, hint=hint, size=self.size)
+            Button((x + side, y + self.head + row_height * k, width, height), text, action, hint=hint, size=self.size)
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 

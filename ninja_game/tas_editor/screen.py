@@ -87,7 +87,7 @@ class TasScreen(WorkspaceScreen):
         return 0.0, self.splitters.layout.roll[0]  # not over its rows
 
     @property
-    def foot_high(self) -> float:  # type: ignore[override]
+    def foot_height(self) -> float:  # type: ignore[override]
         """Notices lie over the floor of the level, not over the tabs and the status."""
         layout = self.splitters.layout
         return layout.size[1] - layout.level[1] - layout.level[3]

@@ -36,7 +36,7 @@ from ninja_game.ui.widgets import Button, Choice, Widget
 
 _ROW = 54
 _PICTURE_SIZE = 60
-_SIDE, SIDE_WIDTH, COMMENT_HIGH = 436, 320, 85
+_SIDE, SIDE_WIDTH, COMMENT_HEIGHT = 436, 320, 85
 _SORT_ORDERS: list[tuple[str, object]] = [
     ("Mine first", "listed"),
     ("Last changed", "changed"),
@@ -247,7 +247,7 @@ class Browser(ThumbnailScreen):
         subtitle = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, subtitle, _SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, SIDE_WIDTH, COMMENT_HIGH), 10.5, 13.5)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, SIDE_WIDTH, COMMENT_HEIGHT), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
         theme.text(surface, self.player.reached(entry, mark), _SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)

@@ -16,7 +16,7 @@ from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.episodes import PREVIEW
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import HIGH, PackCell, Rack
+from ninja_game.play.menus.pack_shelves import CELL_HEIGHT, PackCell, Rack
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.widgets import Button, Choice, Widget
@@ -49,7 +49,7 @@ class _ShownState(NamedTuple):
 class PackScreen(PackDesk):
     """The screen of the player's packs (*Levels > Packs*): the desk, with its buttons, keys and menus."""
 
-    foot_high = 552.0
+    foot_height = 552.0
     _shown = _ShownState()
 
     def build(self) -> Sequence[Widget]:
@@ -114,7 +114,7 @@ class PackScreen(PackDesk):
     @property
     def _top(self) -> float:
         """The upper edge of the texts below the shelves, px."""
-        return 96 + HIGH * self.shelves.lines + 24 if self.pack else 396
+        return 96 + CELL_HEIGHT * self.shelves.lines + 24 if self.pack else 396
 
     @property
     def notice_room(self) -> tuple[float, float]:

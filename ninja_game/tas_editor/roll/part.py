@@ -301,9 +301,9 @@ class ScrollBar:
             surface.fill(palette.bar_full, (bar.left, at(begin), bar.width // 2, max(1, at(behind) - at(begin))))
         other = compared_run(editor)
         if other is not None:
-            wide, colour = bar.width // 4, other.colour(palette)
+            width, colour = bar.width // 4, other.colour(palette)
             for y in different_rows(editor.track.inputs, other.track.inputs, ticks, bar.height):
-                surface.fill(colour, (bar.right - wide, bar.top + y, wide, 1))
+                surface.fill(colour, (bar.right - width, bar.top + y, width, 1))
         thick = theme.canvas.px(1.5)
         for tick, role in self._places():
             surface.fill(getattr(palette, role), (bar.left + bar.width // 4, at(tick), bar.width, thick))

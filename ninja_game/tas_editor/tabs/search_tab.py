@@ -124,8 +124,8 @@ class SearchTab(Tab):
         self.widgets = [*(widget for line in self._lines for widget in line[2] if widget), self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        for top, high, widgets, widths in self._lines:
-            put_in_a_row((x + 4, y + top, w - 8, high), widgets, widths)
+        for top, height, widgets, widths in self._lines:
+            put_in_a_row((x + 4, y + top, w - 8, height), widgets, widths)
         self.list.area = x + 4, y + 99, w - 8, h - 101
 
     def commands(self) -> Commands:
