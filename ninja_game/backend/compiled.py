@@ -77,7 +77,8 @@ class CompiledWorlds(Worlds):
     name: MemoryName = "compiled"
 
     def __init__(self, compiled: Compile, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
-        self.levels, self.count, self.box = tuple(levels), count, box
+        self.levels = tuple(levels)
+        self.count, self.box = count, box
         self._compiled = compiled
         self._step, self._observe = compiled(step_world), compiled(observe_object)
         tables = [object_table(level) for level in self.levels]

@@ -142,11 +142,13 @@ def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
 
     It ends a second before, or where the ninja last stood if that is at most two seconds earlier.
     """
-    run, stood, alive = Simulation(level), 0, 0
+    run = Simulation(level)
+    stood = alive = 0
     for number, keys in enumerate(inputs[: max(0, tick - TICKS)], 1):
         run.step_keys(keys)
         if run.outcome == "running":
-            stood, alive = stood if run.ninja.in_air else number, number
+            stood = stood if run.ninja.in_air else number
+            alive = number
     return inputs[: stood if alive - stood <= 2 * TICKS else alive]
 
 

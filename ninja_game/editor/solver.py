@@ -141,7 +141,8 @@ class Certifier:
     """Certifies the level under edit. ``certification``: the newest one."""
 
     def __init__(self, solver: Solver) -> None:
-        self.seconds, self.solver, self.certification = SECONDS, solver, Certification()
+        self.seconds, self.solver = SECONDS, solver
+        self.certification = Certification()
 
     @property
     def text(self) -> str:

@@ -115,7 +115,8 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
     costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
     before[0] = 0.0
     for diagonal in range(n + m - 1):
-        start, end, shift = max(0, diagonal - m + 1), min(n, diagonal + 1), m - 1 - diagonal
+        start, end = max(0, diagonal - m + 1), min(n, diagonal + 1)
+        shift = m - 1 - diagonal
         here, there = slice(start, end), slice(start + shift, end + shift)
         both, left, right = before[start:end], last[start:end], last[start + 1 : end + 1]
         one = np.minimum(left, right)

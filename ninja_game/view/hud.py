@@ -171,11 +171,13 @@ class Hud:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
         for message, roomy, solid in shown:
-            box, opacity, moves = roomy, solid * _clear_of(view.ninja, roomy, softly=view.softly), message.moves
+            box, moves = roomy, message.moves
+            opacity = solid * _clear_of(view.ninja, roomy, softly=view.softly)
             if box.y == BORDER_MESSAGE_TOP:
                 # Beside a message at the right; the rest of the border is for the level's name.
                 left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - box.width)
-                box, opacity, moves = roomy._replace(x=left), solid, ()
+                box = roomy._replace(x=left)
+                opacity, moves = solid, ()
                 if left > _NAME_FROM:
                     written += self.foot(surface, self.theme.fit(view.name, left - 36, _FOOT_SIZE), "")
             place = self.theme.canvas.rect(*box.area)
@@ -208,7 +210,8 @@ class Hud:
         for medal, ticks in pars:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
         x, ink = _BAR_LEFT + _BAR_LENGTH, palette.on_tile
-        words, width = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}", _RIGHT - x - 10
+        words = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}"
+        width = _RIGHT - x - 10
         text = self.theme.text(surface, words, _RIGHT, 7.4, size=9, colour=ink, align="right", bold=True, width=width)
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
@@ -243,7 +246,8 @@ class Hud:
 
     def end_panel(self, surface: pygame.Surface, view: HudView, end: EndPanel) -> pygame.Rect:
         """A panel: a title and lines under it; with a medal at its left, and then the first line large beside it."""
-        theme, medal, (title, lines, tiles, things) = self.theme, view.medal, end
+        theme, medal = self.theme, view.medal
+        title, lines, tiles, things = end
         below, beside = (26, END_MEDAL_SIZE + 14) if medal else (0, 0)
         named, lines = (lines[0], lines[1:]) if medal else ("", lines)
         head = max(theme.width(title, _TITLE_SIZE, bold=True), theme.width(named, _MEDAL_SIZE, bold=True))
@@ -281,7 +285,8 @@ class Hud:
         side = -1 if y > TAG_ROOM else 1
         width = theme.width(name, _POINTER_SIZE, bold=True) + 12
         left = min(max(x - width / 2, 26), WIDTH - 26 - width)
-        tip, base, top = y + side * 17, y + side * 23, tag_top(y)
+        tip, base = y + side * 17, y + side * 23
+        top = tag_top(y)
         box = theme.canvas.fill_rect(surface, palette.accent, left, top, width, 16, 4)
         theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
         middle = left + width / 2
@@ -293,7 +298,8 @@ class Hud:
         x, y, w, h = box.area
         root = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
         upright = not y < at[1] < y + h
-        palette, canvas, rects = self.theme.palette, self.theme.canvas, []
+        palette, canvas = self.theme.palette, self.theme.canvas
+        rects = []
         for colour, half_width in ((palette.panel_edge, _TAIL), (palette.panel, _TAIL - 2)):
             dx, dy = (half_width, 0) if upright else (0, half_width)
             ends = (root[0] - dx, root[1] - dy), (root[0] + dx, root[1] + dy)

@@ -126,7 +126,8 @@ class ObjectPictures:
             places = {BODY_PART: (x, CELL * cell_of(x, y)[1] + 18.0)}
         sprites = [(key, places[at][0] + x, places[at][1] + y) for at, key, x, y in self._kept[model] if at in places]
         canvas, book = self.target.canvas, self.target.book
-        rects, cells = [], [cell_of(*place) for place in places.values()]
+        rects = []
+        cells = [cell_of(*place) for place in places.values()]
         for key, x, y in sprites:
             if is_near(x, y):
                 sprite, (px, py) = book.sprite(key), canvas.point(x, y)

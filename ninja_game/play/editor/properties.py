@@ -165,7 +165,8 @@ def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
 
 
 def _of_tile(view: EditorView) -> tuple[str, list[_RowMaker]]:
-    tools, set_slopes, about = view.session.tools, view.session.set_slopes, EDITOR_COMMANDS.hint("slopes")
+    tools, set_slopes = view.session.tools, view.session.set_slopes
+    about = EDITOR_COMMANDS.hint("slopes")
     first = FIRST_STEPS if tools.draft.level == Level() else ()
     rows: list[_RowMaker] = [partial(Label, text=text, size=9.5) for text in first]
     rows += _hints(["1 to 8: shape", "Q W A S: its solid corner", "9: full    0: empty", "H, J, U: mirror, flip, turn"])
@@ -185,7 +186,8 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 def _align_buttons(tools: EditorTools, head: str) -> _RowMaker:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
-        able, verb = most > 1 + (share is None), head or "Align"
+        verb = head or "Align"
+        able = most > 1 + (share is None)
         hint = f"{verb} the selected objects: {text.lower()}"
         why = f"{verb} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
         buttons.append((text, partial(tools.arrange, axis, share) if able else None, hint if able else why))

@@ -126,13 +126,15 @@ class LevelSheet:
 
     def paint(self) -> list[pygame.Rect]:
         """Draw all changes; the px of the sheet that changed."""
-        dirty, self._dirty = united(area.clip(self._seen) for area in self._dirty), []
+        dirty = united(area.clip(self._seen) for area in self._dirty)
+        self._dirty = []
         for area in dirty:
             self._repaint_area(area)
         return [area.move(self.canvas.origin) for area in dirty]
 
     def _repaint_area(self, flat: pygame.Rect) -> None:
-        surface, target, area = self.surface, self.target, flat.move(self.canvas.origin)
+        surface, target = self.surface, self.target
+        area = flat.move(self.canvas.origin)
         if self.draft is None:
             return
         surface.set_clip(area)
@@ -311,7 +313,8 @@ _SAID_AT = {
 def things_of(draft: Draft, when: str) -> list[Point]:
     """Places of the objects whose touch is the moment ``when`` of a message, px; none for other moments."""
     name, part = _SAID_AT.get(when, ("", BODY_PART))
-    return [at for spec in draft.objects if object_type_name(spec) == name and (at := points(spec).get(part))]
+    places = [points(spec) for spec in draft.objects if object_type_name(spec) == name]
+    return [place[part] for place in places if part in place]
 
 
 def said_at(draft: Draft, message: LevelMessage) -> Point | None:

@@ -106,7 +106,8 @@ class StampCommands:
             self.app.notify(f"Kept as a stamp: {path.stem}")
 
     def _change(self, path: Path) -> None:
-        app, name, delete = self.app, path.stem, partial(self._delete, path)
+        app, name = self.app, path.stem
+        delete = partial(self._delete, path)
         ask = partial(ask_text, app, f"Rename {name}", "Name", name, "Rename", partial(self._rename, path), 40)
         question = Question(app, f"Delete the stamp {name}?", "Delete it", delete, short_path(path))
         rows: list[MenuRow] = [("Rename...", ask, ""), ("Delete...", partial(app.push, question), "")]

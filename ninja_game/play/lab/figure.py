@@ -156,8 +156,9 @@ class Sheet:
     def tiles(self, tiles: TileMap) -> None:
         for cell, tile in enumerate(tiles.ids):
             x, y = CENTRE_X[cell], CENTRE_Y[cell]
-            seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
-            if seen and EXISTS[cell] and (corners := [(x + dx, y + dy) for dx, dy in outline(tile)]):
+            corners = [(x + dx, y + dy) for dx, dy in outline(tile)]
+            is_seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
+            if corners and is_seen and EXISTS[cell]:
                 self.canvas.polygon(self.surface, self.palette.tile, corners)
 
     def edges(self, w: World, cells: Iterable[int] = ALL_CELLS) -> None:

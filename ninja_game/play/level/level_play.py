@@ -102,16 +102,17 @@ class LevelPlay:
         )
         messages = playthrough.messages()
         level, inputs = playthrough.beginning() if messages else (playthrough.level, b"")
-        world = self.attempt.simulation.world if level == playthrough.level else Simulation(level).world
+        is_same = level == playthrough.level
+        world = self.attempt.simulation.world if is_same else Simulation(level).world
         texts = [message.text for message in messages]
         self.things = things_at_start(level, world, texts, inputs)  #: places that a message should not cover
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = playthrough.level.gold
         self.show_tutorial = playthrough.show_tutorial
-        helps, teaches = playthrough.shows_messages, playthrough.entry.source != GAME
         happens, places = in_two(messages)
-        self.messages = MessageQueue(happens, helps=helps, teaches=teaches and bool(messages))
+        teaches = bool(messages) and playthrough.entry.source != GAME
+        self.messages = MessageQueue(happens, helps=playthrough.shows_messages, teaches=teaches)
         self.places = MessageQueue(places, self.attempt.simulation.tiles)  #: their texts come beside the others
         self.queues = self.messages, self.places
         for _ in range(playthrough.deaths):
@@ -157,16 +158,16 @@ class LevelPlay:
 
     def placed(self, queue: MessageQueue) -> PlacedMessage | None:
         """The text of a queue where it lies; None without one, and after the end."""
-        text, is_advice = queue.text, "\n" in queue.text and queue.message is None
+        text = queue.text
+        is_advice = "\n" in text and queue.message is None
         if not text or self.phase in {Phase.DEAD, Phase.PASSED}:
             return None
         shown = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
         layout = self.playthrough.level.tiles, self.things, queue.message, queue.spot
         # The text for a player who is stuck stays in place, too.
         placed = placed_message(shown, *layout, of_start=queue.is_start or is_advice)
-        moves = tuple(
-            sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if is_advice
-        )
+        lines = text.split("\n") if is_advice else []
+        moves = tuple(sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in lines)
         return placed._replace(taken=queue.taken, moves=moves)
 
     def ninja_place(self) -> tuple[float, float]:

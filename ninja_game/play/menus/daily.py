@@ -68,7 +68,9 @@ class DailyScreen(ThumbnailScreen):
         self._maker: _DailyMaker | None = None
         self._shown = ""
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
-        self._dug, self._heading, self._dig_ms = [(16, 12)], (1, 0), 0
+        self._dug = [(16, 12)]
+        self._heading = 1, 0
+        self._dig_ms = 0
         self.play = Button((_SIDE, 390, _SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button((_SIDE, 436, _SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
         self.practice.hint = PRACTICE_HINT

@@ -52,7 +52,8 @@ class Rack(ListView):
         super().__init__(area, CELL_HEIGHT, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
         self.columns, self.status, self.thumbnails, self.pull = columns, status, thumbnails, pull
         self.cells: Sequence[PackCell] = ()
-        self.marked, self.lifted, self.gap = marked, set[str](), 0
+        self.marked, self.gap = marked, 0
+        self.lifted = set[str]()
         self._pressed = (0.0, 0.0)
         self._again = False
 

@@ -73,7 +73,9 @@ class Packer(Aside):
 
         They are not asked about again.
         """
-        self._asks_first, self.path, self.is_busy, self._stopped = known is None, path, True, False
+        self._asks_first = known is None
+        self.path = path
+        self.is_busy, self._stopped = True, False
         self._know(known or ())
         self.saved = self._open_problems = None
         self._seconds = seconds
@@ -121,7 +123,9 @@ class Packer(Aside):
             return
         text, share, start = self._step
         seconds = monotonic() - start
-        self.text = "Stopping" if self._stopped else text if share is not None else f"{text}: {seconds:.0f} s"
+        self.text = text if share is not None else f"{text}: {seconds:.0f} s"
+        if self._stopped:
+            self.text = "Stopping"
         self.share = share
         if self._job.is_idle:
             self.is_busy, self.text = False, self._job.problem
@@ -271,11 +275,13 @@ class PackStatus:
             if level.pars and (has_certificate or file.parent != (self.pack and self.pack.path)):
                 state = f"{seconds_text(level.pars.exit)} s"
             else:
-                run = self.catalogue.author_run(level)
-                vain = (level.named.level, "exit") in self.packer.obstacles
-                stopped = level.named.level in self.packer.app.solver.stopped and not self.packer.is_busy
-                untried = "stopped" if stopped else "changed" if has_certificate else "no run yet"
-                state = "certified" if run else NOT_FOUND if vain else untried
+                state = "changed" if has_certificate else "no run yet"
+                if self.catalogue.author_run(level):
+                    state = "certified"
+                elif (level.named.level, "exit") in self.packer.obstacles:
+                    state = NOT_FOUND
+                elif level.named.level in self.packer.app.solver.stopped and not self.packer.is_busy:
+                    state = "stopped"
             self._states[id(level)] = state
         return state
 

@@ -233,8 +233,11 @@ class LevelPart(TasPart):
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         take_over = self.take_over
         if take_over.on:
-            now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
-            go_on = "" if take_over.waiting else " Space: go on;" if take_over.still else " Space: pause;"
+            now, go_on = "your keys", " Space: pause;"
+            if take_over.waiting:
+                now, go_on = "press a key to begin", ""
+            elif take_over.still:
+                now, go_on = "tick by tick", " Space: go on;"
             text = f"Taken over: {now}. Enter: end;{go_on} . and ,: step"
         elif self.playing.on:
             text = "Playing. Space: stop"

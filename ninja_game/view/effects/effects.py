@@ -70,8 +70,9 @@ class Effects:
     def puffs(self, x: float, y: float, nx: float, ny: float, angle: float, length: float, count: int = 4) -> None:
         """Puffs of dust from a surface with normal (nx, ny), to alternating sides."""
         for k in range(count):
-            turn = radians((angle + self.rng.uniform(-10, 10)) * (1 if k % 2 else -1))
-            tx, ty = -ny * (1 if k % 2 else -1), nx * (1 if k % 2 else -1)
+            side = 1 if k % 2 else -1
+            turn = radians((angle + self.rng.uniform(-10, 10)) * side)
+            tx, ty = -ny * side, nx * side
             dx = tx * cos(turn) + nx * abs(sin(turn))
             dy = ty * cos(turn) + ny * abs(sin(turn))
             far = length * self.rng.uniform(0.6, 1.2)

@@ -21,7 +21,8 @@ BESIDE, BELOW, _RIGHT = 72, 28, _WIDTH - _MARGIN  # room for the labels; the rig
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # least px between two numbers
 
-_FLOOR, _LANES, DEEP = 130, (152, 176, 200), 240  # px from the top: speeds, keys, lower end
+_FLOOR, DEEP = 130, 240  # px from the top: lower end of the speeds, and of all
+_LANES = 152, 176, 200  # of the keys, px from the top
 ROW_TICKS, _MAX_ROWS = 10 * TICKS_PER_SECOND, 6  # a row of speeds and keys; a long run has longer ones
 _MAX_COLUMNS = 400  # columns of a row
 LABELS_APART = 26  # least px between two numbers of splits
@@ -39,7 +40,8 @@ def step_chart(
     ``text``: of a value; ``days``: of the first and the last moment; ``label``: the line's text for screen readers.
     """
     x, y = np.array(points, np.float64).T
-    low, high, floor = float(y.min()), float(y.max()), _HEIGHT - BELOW
+    low, high = float(y.min()), float(y.max())
+    floor = _HEIGHT - BELOW
     x = BESIDE + (_RIGHT - BESIDE) * _share(x)
     y = floor - (floor - _MARGIN) * _share(y)
     moves = "".join(f"H{left:.1f}V{up:.1f}" for left, up in zip(x[1:], y[1:], strict=True))
@@ -172,8 +174,10 @@ def _numbers(splits: Sequence[int], start: int, end: int, px_per_tick: float) ->
 def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | None]]], label: str) -> Markup:
     """Lines of how many ticks runs, by their colours' numbers, are later at these ticks of another one; None: a gap."""
     known = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
-    low, high, floor = min(known), max(known), _HEIGHT - BELOW
-    up, px_per_tick = (floor - _MARGIN) / ((high - low) or 1), (_RIGHT - BESIDE) / (ticks[-1] or 1)
+    low, high = min(known), max(known)
+    floor = _HEIGHT - BELOW
+    up = (floor - _MARGIN) / ((high - low) or 1)
+    px_per_tick = (_RIGHT - BESIDE) / (ticks[-1] or 1)
     drawn = [
         *_scale(lambda lead: f"{lead / TICKS_PER_SECOND:.2f}", low, high, floor),
         *_seconds(0, ticks[-1], px_per_tick, _HEIGHT - 6),

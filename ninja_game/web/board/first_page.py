@@ -62,9 +62,9 @@ class FirstPage:
         shown = tag("ul", *newest, class_="cards") if newest else None, older, tag("p", ONE_MOMENT), feed
         news: list[Piece] = [("newest", "Newest records", joined(*shown))] if newest or rows else []
         leaders: list[Piece] = [
-            (ladder, self.players.title(ladder), self.players.short_list(first))
+            (ladder, self.players.title(ladder), self.players.short_list(standings[:LEADING]))
             for ladder, standings in self.ranking.standings.items()
-            if (first := standings[:LEADING])
+            if standings
         ]
         lead = tag("p", f"{counts(self.ranking.judged)}.", class_="lead")
         again = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")

@@ -214,7 +214,8 @@ class LevelPages:
 
     def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
         """The leader of a table, and a link to it; if all runs wait for confirmation, their number."""
-        parts, leaderboard, best = self.parts, ranks.leaderboard, ranks.rows[0]
+        parts, leaderboard = self.parts, ranks.leaderboard
+        best = ranks.rows[0]
         link = tag("a", self.ranking.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
             waits = parts.waiting_link(row.run for row in self.ranking.tables[best.run.level][leaderboard])
@@ -321,12 +322,14 @@ class LevelPages:
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
             return None
         length = first.tick + 1
-        seconds = range(step := TICKS_PER_SECOND * (1 + length // _MAX_SECONDS), length, step)
+        step = TICKS_PER_SECOND * (1 + length // _MAX_SECONDS)
+        seconds = range(step, length, step)
         ticks = sorted({*range(0, length, 1 + length // MAX_LEADS), *seconds, first.tick})
         delays = [dict(zip(ticks, self._delays(first, other, ticks), strict=True)) for _, other, _ in others]
         sentences = []
         for (name, *_), delay in zip(others, delays, strict=True):
-            near = [(0, 0), *((tick, lead) for tick in seconds if (lead := delay[tick]) is not None)]
+            leads = ((tick, delay[tick]) for tick in seconds)
+            near = [(0, 0), *((tick, lead) for tick, lead in leads if lead is not None)]
             lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
             span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
             sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
@@ -334,21 +337,19 @@ class LevelPages:
         lines = [(number, [*delay.values()]) for (*_, number), delay in zip(others, delays, strict=True)]
         legend = tag("ul", *(tag("li", swatch(number), f" {name}") for name, _, number in others), class_="facts")
         shown = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
-        rows = [
-            (
-                f"{tick // TICKS_PER_SECOND} s",
-                *("" if delay[tick] is None else signed(delay[tick] or 0) for delay in delays),
-            )
-            for tick in seconds
-        ]
-        rows = [row for row in rows if tabled and any(row[1:])]
+        rows = []
+        for tick in seconds if tabled else ():
+            cells = ["" if delay[tick] is None else signed(delay[tick] or 0) for delay in delays]
+            if any(cells):
+                rows.append((f"{tick // TICKS_PER_SECOND} s", *cells))
         heads = [name for name, *_ in runs]
         folded = tag("details", tag("summary", "As a table"), table(caption, heads, rows)) if rows else None
         return section("Where time goes", *shown, folded)
 
     def _delays(self, first: Run, other: Run, ticks: Sequence[int]) -> list[int | None]:
         """As ``_leads``, compared once for all pages of the level. ``ticks``: always the same of a first run."""
-        if (pair := (first.key, other.key)) not in self._compared:
+        pair = first.key, other.key
+        if pair not in self._compared:
             self._compared[pair] = _leads(self._ghost(first).positions, self._ghost(other).positions, ticks)
         return self._compared[pair]
 

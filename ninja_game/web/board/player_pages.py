@@ -130,11 +130,10 @@ class PlayerPages:
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and its distance from the first; whether it waits."""
         waits = ["waits for confirmation"] if run.waits else []
-        return waits + [
-            f"{self.ranking.leaderboard_name(part)}: {place}"
-            for part, rows, number in self.ranking.places.get(run.key, ())
-            if (place := self.parts.place(part[1], rows[number], rows[0]))
-        ]
+        for part, rows, number in self.ranking.places.get(run.key, ()):
+            place = self.parts.place(part[1], rows[number], rows[0])
+            waits += [f"{self.ranking.leaderboard_name(part)}: {place}"] if place else []
+        return waits
 
 
 def _sums(ladder: str, category: str, standing: Standing) -> Markup:

@@ -278,7 +278,8 @@ def table(
     """
     cells = [list(row) for row in rows]
     filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
-    shown, lines = [*compress(heads, filled)], [[*compress(row, filled)] for row in cells]
+    shown = [*compress(heads, filled)]
+    lines = [[*compress(row, filled)] for row in cells]
     numbers = [all(_NUMBER.fullmatch(str(cell)) for cell in column if cell) for column in zip(*lines, strict=True)]
     kinds = [f"n{at}" for at, number in enumerate(numbers, 1) if number]
     kinds += [f"l{at}" for at, name in enumerate(shown, 1) if name in optional]
