@@ -29,7 +29,7 @@ def program() -> str:
 
 
 class Memo:
-    """A cache of plain values by key; ``save`` drops entries that were neither recalled nor noted.
+    """A cache of plain values by key. ``save`` drops entries that were neither recalled nor noted.
 
     ``path``: of its file, None: nothing is kept; a missing or broken one is empty. ``again``: recall nothing from it.
     """

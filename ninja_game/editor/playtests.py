@@ -156,7 +156,7 @@ TOUCH = RADIUS + GOLD_RADIUS  # px between the ninja and gold or a switch that i
 
 
 def place_before(draft: Draft, place: Point, size: Cell = FRAME_SIZE, *, touch: bool = False) -> Point | None:
-    """Where the playtest of a message near a place begins, px; None: at the level's start.
+    """Where the playtest of a message near a place begins, px; None if that is at the level's start.
 
     It is a cell beside the frame, or nearer if there is no room; between walls it is below or above. A ninja that
     presses nothing lives there. Cells with a floor and on the side of the start are preferred. Instead of a cell in the

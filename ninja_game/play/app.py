@@ -332,7 +332,7 @@ class App:
     ) -> Path | None:
         """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, bytes, or a function that writes to the path. ``first``: as of ``export_path``.
+        ``content``: text, bytes, or a function that writes to the path. ``first``: as in ``export_path``.
         ``over``: an earlier export, which is replaced.
         """
         try:
@@ -367,7 +367,7 @@ def build_app(
     """The app with the player's settings; a notice shows what is wrong with the player's files.
 
     ``folder``: the player's folder, by default the usual one. ``controls``: reads keys and pads. ``audio_output``:
-    instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
+    instead of the sound device. ``tas_editor``, ``window``: as in ``App``.
 
     Raises NinjaGameError where there is no display.
     """

@@ -56,7 +56,7 @@ class BaseScreen:
 
     @property
     def music(self) -> str:
-        """The name of the music while this screen is on top (ui/audio/music.py); "": the music that plays already."""
+        """The name of the music while this screen is on top (ui/audio/music.py); "" if the music that plays goes on."""
         return ""
 
     def enter(self) -> None:

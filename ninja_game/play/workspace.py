@@ -357,7 +357,7 @@ class DocumentCommands:
         self.document = document
 
     def own_path(self) -> Path | None:
-        """The path for saving without a question; None: ask."""
+        """The path for saving without a question; None if the player must be asked."""
         raise NotImplementedError
 
     def save_as(self, then: Action = nothing) -> None:

@@ -99,7 +99,7 @@ def each_second(places: tuple[Lead, ...]) -> list[Lead]:
 
 
 def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[np.intp]:
-    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place; -1: never.
+    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place, or -1.
 
     Dynamic time warping: of all ways to step forwards through both runs, the one with the least sum of distances.
     Raises ArgumentError for more than MAX_PAIRS pairs of ticks, or MAX_TOGETHER ticks.

@@ -38,7 +38,7 @@ _LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # hazards that strike along a line
 
 
 class Design(NamedTuple):
-    """The counts of a level. Distances in px, shares from 0 to 1; None: too few things to count.
+    """The counts of a level. Distances in px, shares from 0 to 1; None where there are too few things to count.
 
     ``hazard_distance``: from a hazard to the run, the median. ``bait``: the share of the gold near a possible place of
     a hazard, or in the sight of a gun. ``gold_evenness``, ``mine_evenness``: mean distance to the nearest other piece

@@ -51,7 +51,7 @@ def overwrite(keys: Keys, length: int, start: int, end: int, mask: int, value: i
 
 @fast
 def next_change(keys: Keys, length: int, tick: int, mask: int) -> int:
-    """The first tick after ``tick`` whose keys under the mask differ from the tick before; ``length`` if none."""
+    """The first tick after ``tick`` whose keys under the mask differ from the tick before; else ``length``."""
     for k in range(tick + 1, length):
         if (keys[k] ^ keys[k - 1]) & mask:
             return k

@@ -37,7 +37,7 @@ NOTHING = "The goal was not reached. More time, a longer span, another method or
 class SpanResults:
     """Runs a task in the background, and puts results into the run, while the ticks before them are unchanged.
 
-    ``every``: as of SpanSearch; None: search the whole run. Raises as SpanSearch does.
+    ``every``: as in SpanSearch, or None to search the whole run. Raises as SpanSearch does.
     """
 
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None, title: str) -> None:
@@ -83,7 +83,7 @@ class SpanResults:
 
     @property
     def first_behind(self) -> int | None:
-        """The first tick behind a result in the present run; None: it has changed, and no result fits.
+        """The first tick behind a result in the present run; None if that has changed, so that no result fits.
 
         From it on the run is as it was after it reached the goal itself.
         """

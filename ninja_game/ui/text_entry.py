@@ -178,7 +178,7 @@ class TextEntry(Widget):
             self._first -= 1
 
     def _measure(self, theme: Theme, left: float, room: float) -> str:
-        """The visible part; ``_stops`` gets the places between its characters."""
+        """Measure the visible part of the text: ``_stops`` gets the places between its characters, px."""
         self._stops = [left]
         for last in range(self._first + 1, len(self.text) + 1):
             width = theme.width(self.text[self._first : last].rstrip("\n"), TEXT_SIZE)

@@ -105,7 +105,7 @@ class PageServices:
             raise NinjaGameError(str(error)) from None
 
     def verdicts(self, name: str, data: bytes) -> Iterator[str | None]:
-        """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``; None: a pause.
+        """A verdict on every recording in a file, one by one: JSON as from ``ninja-game verify --json``; None pauses.
 
         ``{"unreadable": message}`` for one that cannot be read, or takes more work than a page does.
         """

@@ -187,7 +187,7 @@ def write_object_lines(specs: Sequence[ObjectSpec]) -> list[str]:
 
 
 def _readable(spec: ObjectSpec) -> tuple[str, str, str]:
-    """Keyword, place and further words of a record's line; ``raw`` if no form reproduces it to the last bit."""
+    """Keyword, place and further words of a record's line; ``raw`` if no other form reproduces every bit of it."""
     keyword, place, words = best_form(spec)
     if keyword:
         listed = read_object_line(f"{keyword} {place} {words}")

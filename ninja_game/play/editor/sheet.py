@@ -192,7 +192,7 @@ class GridLine(NamedTuple):
 
 
 class Grid(NamedTuple):
-    """Lines every ``step`` px from the level's corner, moved by ``shift``; 0: none."""
+    """Lines every ``step`` px from the level's corner, moved by ``shift``; no lines if ``step`` is 0."""
 
     name: str
     step: float

@@ -134,7 +134,7 @@ class Sheet:
         return self.theme.palette
 
     def text(self, text: str, x: float, y: float, *, size: float = 9, colour: Colour | None = None) -> None:
-        """A text centred at a point of the world; ``size`` in logical px of the screen."""
+        """A text centred at a point of the world. ``size``: logical px of the screen."""
         at = self.theme.canvas.logical(self.canvas.point(x, y))
         self.theme.text(
             self.surface, text, at[0], at[1] - size / 2, size=size, colour=colour, align="centre", height=1.1 * size

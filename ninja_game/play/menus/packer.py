@@ -69,9 +69,9 @@ class Packer(Aside):
         return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
-        """Make a pack ready. ``known``: problems with which the player goes on; None: new ones are asked about before.
+        """Make a pack ready. ``known``: problems with which the player goes on, and is not asked about again.
 
-        They are not asked about again.
+        With None, all problems are looked for before, and asked about.
         """
         self._asks_first = known is None
         self.path = path

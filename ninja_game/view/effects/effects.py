@@ -56,7 +56,7 @@ class Effects:
         self, kind: str, x: float, y: float, dx: float = 0.0, dy: float = 0.0, *,
         life: float = 10.0, size: float = 1.0, rear: bool = False,
     ) -> None:  # fmt: skip
-        """One particle that starts now; ``life`` in frames of 1/120 s."""
+        """One particle that starts now. ``life``: frames of 1/120 s."""
         variant = self.rng.randrange(6)
         self.particles.add(Particle(kind, x, y, dx, dy, life / 3, size, variant, self.now), rear=rear)
 

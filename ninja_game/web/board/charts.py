@@ -172,7 +172,10 @@ def _numbers(splits: Sequence[int], start: int, end: int, px_per_tick: float) ->
 
 
 def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | None]]], label: str) -> Markup:
-    """Lines of how many ticks runs, by their colours' numbers, are later at these ticks of another one; None: a gap."""
+    """Lines of how many ticks some runs are later at these ticks of another one.
+
+    ``late``: for each run the number of its colour and its delays; None leaves a gap.
+    """
     known = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
     low, high = min(known), max(known)
     floor = _HEIGHT - BELOW

@@ -355,7 +355,7 @@ class LevelPages:
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
-    """The ticks by which the other run is later at the places of these ticks; None: it is not near there."""
+    """The ticks by which the other run is later at the places of these ticks; None where it is not near."""
     partner = aligned(ours[::COARSE], theirs[::COARSE])
     leads: list[int | None] = []
     for tick in ticks:

@@ -50,7 +50,7 @@ def joined(*contents: Content) -> Markup:
 
 
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:
-    """An element. ``attributes``: names with _ for - and without one at their end; True: without value; None: left out.
+    """An element. ``attributes``: names with _ for -, without one at their end; True writes no value, None nothing.
 
     Raises ValueError for an address outside of the site.
 
