@@ -71,43 +71,47 @@ class JudgedFile(NamedTuple):
     rows: list[Judged]  #: the file's results
 
 
+class Keeping(NamedTuple):
+    """How a board is kept: what its keeper has recorded, and decides now."""
+
+    ledger: Ledger = NO_LEDGER
+    dates: Dates | None = None  #: ``added`` of a Run, by the ledger; without it runs go by the names of their files
+    taken: Dates | None = None  #: ``taken`` of a Run, by the ledger
+    #: Writes decisions on these runs, of these files, into the ledger
+    decide: Callable[[Sequence[Run], Collection[str]], object] | None = None
+    confirm: Collection[str] = ()  #: files whose runs wait no longer
+    unknown: str = PLAYED  #: as in BoardRules, unless the keeper has decided
+
+
 def judge(
     folder: Path,
     shown: PublishedLevels,
+    keeping: Keeping = Keeping(),  # noqa: B008 - it is frozen
     *,
-    dates: Dates | None = None,
-    taken: Dates | None = None,
     jobs: int | None = None,
     memo: Memo | None = None,
-    ledger: Ledger = NO_LEDGER,
-    decide: Callable[[Sequence[Run], Collection[str]], object] | None = None,
-    confirm: Collection[str] = (),
-    unknown: str = PLAYED,
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
-    ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
-    of their files. ``memo``: results of earlier commands on the same files, levels and rules; they save simulations.
-    ``decide``: writes decisions on these runs, of these files, into the ledger. ``confirm``: files whose runs wait no
-    longer. ``unknown``: the ladder of runs that do not say how they were made, unless the keeper has decided.
+    ``memo``: results of earlier commands on the same files, levels and rules; they save simulations.
     """
-    memo, players = memo or Memo(), Players()
+    memo, players, ledger = memo or Memo(), Players(), keeping.ledger
     judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
-    counts, rejected = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
-    runs = [_dated(run, dates, taken) for run in counts]
-    if decide:
-        decide(runs, {run.file for run in runs} | {item.file for item in rejected})
+    valid, invalid = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
+    dated = [_dated(run, keeping.dates, keeping.taken) for run in valid]
+    if keeping.decide:
+        keeping.decide(dated, {run.file for run in dated} | {item.file for item in invalid})
     owners = ledger.owners
-    runs, impossible = _parted(_possible(run, ledger, unknown) for run in runs)
-    runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
-    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(runs, players))
+    possible, impossible = _parted(_possible(run, ledger, keeping.unknown) for run in dated)
+    in_order = sorted(_first_again(possible, owners), key=lambda run: run.order)
+    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(in_order, players))
     unique, copies = without_copies(credited, memo, owners)
-    unique = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
-    counted = tuple(_of_senders(unique, ledger, confirm))
-    named = (_named(item, players) for item in rejected + impossible)
+    recorded = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
+    counted = tuple(_of_senders(recorded, ledger, keeping.confirm))
+    named = (_named(item, players) for item in invalid + impossible)
     others = sorted([*named, *moderated, *copies], key=lambda item: (item.file, item.record))
-    refused, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
-    return ValidatedRuns(counted, refused, repeated, players.alike, _episodes(credited, counted, shown))
+    rejected, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
+    return ValidatedRuns(counted, rejected, repeated, players.alike, _episodes(credited, counted, shown))
 
 
 def _parted(items: Iterable[Run | RejectedRun]) -> tuple[list[Run], list[RejectedRun]]:
