@@ -235,6 +235,7 @@ def best_form(spec: ObjectSpec) -> tuple[str, str, str]:
 
 
 def _door_form(values: tuple[float, ...]) -> tuple[str, str, str]:
+    """As ``best_form``."""
     x, y, vertical, trap, column, row, locked, i, j = values
     keyword = next((word for word, flags in DOORS.items() if flags == (trap, locked)), "")
     side = next((word for word, numbers in SIDES.items() if numbers == (vertical, i, j)), "")

@@ -265,6 +265,7 @@ class ScrollBar:
         self._marks: list[tuple[int, str]] = []
 
     def _places(self) -> list[tuple[int, str]]:
+        """The marked ticks, with their colours' roles in the palette."""
         timeline, track = self._editor.session.timeline, self._editor.track
         known = track, timeline.simulated_until
         if known != self._known:

@@ -255,6 +255,7 @@ class Documents:
 
 
 def _split_title(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
+    """The title of a document, by default its file's name, and what follows it."""
     if tokens and tokens[0].type == "heading_open" and tokens[0].tag == "h1":
         return _plain(tokens[1]), tokens[3:]
     return Path(name).stem, tokens
