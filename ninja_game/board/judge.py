@@ -139,10 +139,10 @@ def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | RejectedRun:
 
 def _first_again(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
     """The runs with their first dates: a run that was withdrawn, or is in another file now, keeps its player's date."""
-    known = {(run.level, run.way, run.added) for run in runs}
+    ways = {(run.level, run.way, run.added) for run in runs}
     for run in runs:
         owner = owners.get(way := (run.level, run.way))
-        if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
+        if owner and (*way, owner["added"]) not in ways and folded(owner["player"]) == folded(run.player):
             yield replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
         else:
             yield run
@@ -227,13 +227,13 @@ class _Judging:
         entry = self._memo.recall(name)
         entry = entry if isinstance(entry, dict) and entry.get("context") == self._context else {}
         digest, rows = str(entry.get("digest")), entry.get("rows", [])
-        known = _known(rows, self._shown)
-        if known and stamp and stamp == entry.get("stamp"):
-            return JudgedFile(name, digest, stamp, [], known)
+        results = _known(rows, self._shown)
+        if results and stamp and stamp == entry.get("stamp"):
+            return JudgedFile(name, digest, stamp, [], results)
         file = SubmittedFile(name, problem=why) if why else self._folder.file(name)
-        if known and digest == file.digest:
+        if results and digest == file.digest:
             self._note(name, stamp, digest, rows)
-            return JudgedFile(name, digest, stamp, [], known)
+            return JudgedFile(name, digest, stamp, [], results)
         return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
 
     def _note(self, name: str, stamp: list[int], digest: str, rows: list[dict[str, Any]]) -> None:
@@ -268,8 +268,8 @@ def _known(rows: Any, shown: PublishedLevels) -> list[Judged]:
     with suppress(TypeError, ValueError):
         recordings = [Judged(**row) for row in rows]
         for row in recordings:
-            known = row.kind in REJECTED_KINDS if row.kind else row.level in shown.entries
-            if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
+            is_valid = row.kind in REJECTED_KINDS if row.kind else row.level in shown.entries
+            if not is_valid or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
             parse_provenance(row.made)
         return recordings

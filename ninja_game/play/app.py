@@ -312,8 +312,8 @@ class App:
         if len(lines) > 1 or not (self.top.plays or self.top.small_notices):
             size, margin, height = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
             lines = wrapped(theme, self.notice, most, size)[:NOTICE_LINES]
-        foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_height
-        y = max(1.0, foot - height * len(lines) - 2 * margin)
+        lower_edge = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_height
+        y = max(1.0, lower_edge - height * len(lines) - 2 * margin)
         width = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - width / 2, y, width, height * len(lines) + 2 * margin)
         for k, line in enumerate(lines):

@@ -99,19 +99,19 @@ class MenuScreen(Screen):
             return True
         if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
             self.focus_on(self.search)
-        taken = self.focus is not None and self.focus.text_event(event.raw)
+        is_used = self.focus is not None and self.focus.text_event(event.raw)
         self._typed.follow(event.raw)
         if event.raw.type == pygame.KEYDOWN:
             self._typed.end()
-            if taken:
+            if is_used:
                 self._typed.begin(event.raw, scancode_of(event.raw), first=_FIRST_REPEAT_MS, every=_TEXT_REPEAT_MS)
-        if taken:
+        if is_used:
             self.widgets_changed()
         if isinstance(self.focus, TextEntry) and self.focus.edited.was_full:
             self.focus.edited.was_full = False
             if self.says_full:
                 self.app.notify(f"At most {self.focus.edited.longest} letters")
-        return taken
+        return is_used
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type in MOUSE:

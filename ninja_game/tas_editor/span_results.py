@@ -196,12 +196,12 @@ class SpanResults:
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
-        kept = distinct_routes(better, measured=bool(self.task.measure))[:KEPT]
+        routes = distinct_routes(better, measured=bool(self.task.measure))[:KEPT]
         # A run beside that is only found again comes last.
-        kept.sort(key=lambda run: self._equal_run(run) is not None)
-        if [run.score for run in kept] != [run.score for run in self.better]:
+        routes.sort(key=lambda run: self._equal_run(run) is not None)
+        if [run.score for run in routes] != [run.score for run in self.better]:
             self._gained_at = self.search.seconds
-        self.better = tuple(kept)
+        self.better = tuple(routes)
 
     def words(self, result: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""

@@ -134,10 +134,10 @@ class PageServices:
                     continue
                 try:
                     verdict = yield from verify_in_slices(recording, "plain", budget=PAGE_BUDGET, slice_work=TURN_WORK)
-                    shown = with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
+                    fields = with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
                 except BudgetError as error:
                     error = replace(error, hint="`ninja-game verify` judges it on a desktop", option="")
-                    shown = {"unreadable": str(error)}
+                    fields = {"unreadable": str(error)}
                 except NinjaGameError as error:
-                    shown = {"unreadable": str(error)}
-                yield json.dumps(shown)
+                    fields = {"unreadable": str(error)}
+                yield json.dumps(fields)

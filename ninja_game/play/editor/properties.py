@@ -95,8 +95,11 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         title, rows = _of_tile(view)
     head, rows = Label((x, y, w, 15), title, size=10), [*_copying(tools), *rows]
     row = min(_ROW_HEIGHT, (area[3] - 17) / max(1, len(rows)))
-    made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
-    return [head, *(widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets]))]
+    widgets: list[Widget] = [head]
+    for k, make in enumerate(rows):
+        made = make((x, y + 17 + row * k, w, row - 3))
+        widgets += made if isinstance(made, Sequence) else [made]
+    return widgets
 
 
 def _hints(texts: Sequence[str]) -> list[_RowMaker]:
@@ -107,9 +110,9 @@ def _copying(tools: EditorTools) -> list[_RowMaker]:
     """What Select takes, and what happens to the empty cells of a copy."""
     rows: list[_RowMaker] = []
     if tools.tool == "select" and not tools.ghost:
-        taken = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
+        choices = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
         rows.append(
-            lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
+            lambda area: Choice(area, "", choices, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
         )
     if tools.ghost.tiles if tools.ghost else tools.selection.area:
         empty = [("empty cells: left out", False), ("empty cells: copied", True)]

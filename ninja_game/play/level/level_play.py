@@ -162,10 +162,10 @@ class LevelPlay:
         is_advice = "\n" in text and queue.message is None
         if not text or self.phase in {Phase.DEAD, Phase.PASSED}:
             return None
-        shown = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
+        words = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
         layout = self.playthrough.level.tiles, self.things, queue.message, queue.spot
         # The text for a player who is stuck stays in place, too.
-        placed = placed_message(shown, *layout, of_start=queue.is_start or is_advice)
+        placed = placed_message(words, *layout, of_start=queue.is_start or is_advice)
         lines = text.split("\n") if is_advice else []
         moves = tuple(sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in lines)
         return placed._replace(taken=queue.taken, moves=moves)

@@ -186,11 +186,11 @@ class Browser(ThumbnailScreen):
         ours = selected is not None and selected.source == GAME
         by_player = selected is not None and selected.named.author == self.player.settings.name
         is_own = selected is not None and not ours and (selected.source == YOURS or by_player)
-        known = ours or bool(selected and self.player.catalogue.author_run(selected))
+        has_run = ours or bool(selected and self.player.catalogue.author_run(selected))
         opened = is_own or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
-        self.watch_author.enabled = known and opened
+        self.watch_author.enabled = has_run and opened
         unknown = "none is known: Certify, in the editor, finds one" if is_own else "none is known"
-        lock_hint = "earn a gold medal to watch it" if known else unknown
+        lock_hint = "earn a gold medal to watch it" if has_run else unknown
         self.watch_author.hint = "" if self.watch_author.enabled else lock_hint
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 

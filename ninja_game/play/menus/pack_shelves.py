@@ -105,16 +105,16 @@ class Rack(ListView):
         x += self.shift(index)
         inner = (x + 2, y + 2, w - 4, h - 4)
         lifted = cell.level is not None and cell.level.named.file in self.lifted
-        marked = cell.level is not None and cell.level.named.file in self.marked
+        is_marked = cell.level is not None and cell.level.named.file in self.marked
         if cell.head:
             self._draw_head(surface, theme, cell, inner)
         elif cell.level and not lifted:
             theme.row(surface, inner, chosen=chosen and focused, focused=focused)
             self._draw_level(surface, theme, cell.level, x + 6, y + 6, w - 12)
-        if marked and not lifted:
+        if is_marked and not lifted:
             theme.canvas.circle(surface, theme.palette.accent, (x + 11, y + 11), 6)
         free = not (cell.head or cell.level)
-        if marked or (chosen and focused and not self.lifted):
+        if is_marked or (chosen and focused and not self.lifted):
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
         elif lifted or free:
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)

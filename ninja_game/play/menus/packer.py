@@ -112,9 +112,9 @@ class Packer(Aside):
     def _make_ready(self, path: Path) -> ReadyPack:
         if self._asks_first:
             self._say("Looking for problems", None)
-            found = Checked.of(Pack(path), self.obstacles)
-            if self.news(found.problems):
-                return ReadyPack(found.pack, found.findings, b"", "", [])
+            checked = Checked.of(Pack(path), self.obstacles)
+            if self.news(checked.problems):
+                return ReadyPack(checked.pack, checked.findings, b"", "", [])
         jobs = max(1, cores() - 1)
         return prepare_pack(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
@@ -142,9 +142,9 @@ class Packer(Aside):
 
     def take_problems(self) -> ReadyPack | None:
         """The pack about whose problems the player is to be asked, once; None while they look at something else."""
-        asked = self._open_problems if self.waited_for else None
-        self._open_problems = None if asked else self._open_problems
-        return asked
+        problems = self._open_problems if self.waited_for else None
+        self._open_problems = None if problems else self._open_problems
+        return problems
 
     def publish(self, ready: ReadyPack) -> None:
         """Write the zip; copy the link if the player looks at the pack, and notify them."""

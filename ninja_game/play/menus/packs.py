@@ -161,17 +161,17 @@ class PackScreen(PackDesk):
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
         packer, before = self.packer, self._shown
-        self._shown = shown = _ShownState(
+        self._shown = state = _ShownState(
             packer.is_busy, len(packer.obstacles), self.zipped, packer.text, self.app.notice
         )
-        if shown[:3] != before[:3]:
+        if state[:3] != before[:3]:
             self.enter()
-        elif shown != before:
+        elif state != before:
             # A new notice may be about a certificate that a search of the editor has found.
-            self.read_packs(news=shown.notice in ("", before.notice))
+            self.read_packs(news=state.notice in ("", before.notice))
         if ready := packer.take_problems():
             pack_sharing.ask_about(self, ready)
-        self.redraw = self.status.update() or shown != before or self.redraw
+        self.redraw = self.status.update() or state != before or self.redraw
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         self.shelves.hint = self.tray.hint = _MOVES if self.moving else _DRAG
@@ -188,8 +188,8 @@ class PackScreen(PackDesk):
             theme.paragraph(surface, step, place, 13, 20, align="centre")
         elif not packer.is_busy:
             texts += step[:1]
-        foot = (36, 524, 720 if packer.is_busy else 516, 41)
-        theme.paragraph(surface, texts, foot, 10, 13.5, colour=faint)
+        area = (36, 524, 720 if packer.is_busy else 516, 41)
+        theme.paragraph(surface, texts, area, 10, 13.5, colour=faint)
         if packer.is_busy and packer.share is not None:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)

@@ -55,12 +55,12 @@ class ProblemsScreen(MenuScreen):
         self.buttons["search"].hint = "For the run that is missing: the solver had less time before"
 
     def build(self) -> Sequence[Widget]:
-        known = self._find()
-        self._waited_ms = int(known is None)
-        self.list.empty = "Looking for problems" if known is None else "There are no problems"
+        problems = self._find()
+        self._waited_ms = int(problems is None)
+        self.list.empty = "Looking for problems" if problems is None else "There are no problems"
         if not self.problems:
-            self.list.index = next((k for k, problem in enumerate(known or ()) if not problem.accepted), 0)
-        self.problems = self.problems if known is None else known
+            self.list.index = next((k for k, problem in enumerate(problems or ()) if not problem.accepted), 0)
+        self.problems = self.problems if problems is None else problems
         self.list.fill(self.problems)
         self._offer()
         offered = {name for name in self.buttons for problem in self.problems if getattr(problem, name)}

@@ -169,8 +169,8 @@ def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, 
     for split in own.splits:
         words = [split.name]
         for other, name in zip(others, names, strict=True):
-            there = other.by_key.get(split.key)
-            words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
+            other_split = other.by_key.get(split.key)
+            words.append(f"{name} {other_split.tick - split.tick:+d}" if other_split else f"{name} never")
         texts.append((split.tick, ", ".join(words)))
     return texts
 

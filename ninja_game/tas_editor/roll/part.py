@@ -267,9 +267,9 @@ class ScrollBar:
     def _places(self) -> list[tuple[int, str]]:
         """The marked ticks, with their colours' roles in the palette."""
         timeline, track = self._editor.session.timeline, self._editor.track
-        known = track, timeline.simulated_until
-        if known != self._known:
-            self._known = known
+        state = track, timeline.simulated_until
+        if state != self._known:
+            self._known = state
             end, outcome = timeline.end
             roles = (("gold-taken", "gold"), ("exit-opened", "exit"))
             self._marks = [
@@ -292,8 +292,8 @@ class ScrollBar:
             return bar.top + min(bar.height - 1, tick * bar.height // ticks)
 
         surface.fill(mixed(palette.panel, palette.tile, 0.45), bar)
-        known = at(editor.session.timeline.simulated_until) - bar.top
-        surface.fill(mixed(palette.panel, palette.good, 0.17), (bar.left, bar.top, bar.width, known))
+        height = at(editor.session.timeline.simulated_until) - bar.top
+        surface.fill(mixed(palette.panel, palette.good, 0.17), (bar.left, bar.top, bar.width, height))
         first, last = at(top), at(top + layout.rows)
         window = pygame.Rect(bar.left, first, bar.width, max(theme.canvas.px(6), last - first))
         surface.fill(mixed(palette.panel, palette.tile, 0.6), window)

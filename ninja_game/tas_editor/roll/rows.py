@@ -89,10 +89,10 @@ def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout
     row = max(6, int(_ROW * canvas.scale))
     rows = max(1, (whole.height - head) // row)
     body = pygame.Rect(whole.left, whole.top + head, whole.width - bar, rows * row)
-    shown = [column for column in ROLL_COLUMNS if column.name not in hidden]
-    free = area[2] - _BAR - sum(column.width for column in shown)
+    columns = [column for column in ROLL_COLUMNS if column.name not in hidden]
+    free = area[2] - _BAR - sum(column.width for column in columns)
     places, x = [], 0.0
-    for column in shown:
+    for column in columns:
         left, x = x, x + (column.width or free)
         first = round(left * canvas.scale)
         behind = min(round(x * canvas.scale), body.width)
@@ -168,13 +168,13 @@ class Digits:
         if key not in self._pictures:
             self._pictures[key] = self._characters(colour)
         characters = self._pictures[key]
-        made: list[Blit] = []
+        blits: list[Blit] = []
         x = right + 0.5
         for character in reversed(text):
             picture, width = characters[character]
             x -= width
-            made.append((picture, (int(x), y)))
-        return made
+            blits.append((picture, (int(x), y)))
+        return blits
 
 
 _SIZE = 8.0  # size of the letters, logical px
@@ -254,14 +254,14 @@ class RowSheet:
         if kind not in self._grounds:
             palette, layout = self.theme.palette, self.layout
             colour, ink = _inks(palette, row)
-            known = colour if row.values is None else mixed(colour, palette.good, 0.17)
+            ground_colour = colour if row.values is None else mixed(colour, palette.good, 0.17)
             line = mixed(colour, palette.panel_edge, 0.55)
             ground = pygame.Surface((layout.body.width, layout.row), 0, self._picture)
             ground.fill(colour)
             for place in layout.places:
                 left = place.left - layout.body.left
                 if place.column.key or place.column.name == "tick":
-                    ground.fill(known, (left, 0, place.width, layout.row))
+                    ground.fill(ground_colour, (left, 0, place.width, layout.row))
                 ground.fill(line, (left, 0, 1, layout.row))
             if row.tick % 10 == 0:
                 ground.fill(line, (0, 0, layout.body.width, 1))

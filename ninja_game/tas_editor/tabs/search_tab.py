@@ -268,8 +268,8 @@ class SearchTab(Tab):
     def _title(self, task: SpanTask) -> str:
         if self.method in IMPROVES:
             return "Whole run"
-        wanted = self._preset.name if self._preset and self._is_from_menu else task.measure or task.goal
-        return f"{task.first}-{task.last - 1} {wanted[:MAX_TITLE]}"
+        goal = self._preset.name if self._preset and self._is_from_menu else task.measure or task.goal
+        return f"{task.first}-{task.last - 1} {goal[:MAX_TITLE]}"
 
     def _start_or_stop(self) -> None:
         if not self.stop():
@@ -351,8 +351,8 @@ class SearchTab(Tab):
         state = tuple[object, ...]((len(self.earlier), self.editor.track))
         if results:
             state += (results.status, results.running, results.first_behind, self.pieces, *map(id, self.better))
-        wanted = self.order, self.rest, self.goal.text
-        return self.span, self.span_reason, self.editor.selection, *wanted, self.list.over, state
+        form = self.order, self.rest, self.goal.text
+        return self.span, self.span_reason, self.editor.selection, *form, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -90,10 +90,10 @@ def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _marks(places: Sequence[tuple[float, float]]) -> Iterator[Markup]:
     """Numbers at places; one that would cover an earlier one shows only while a link to it is active."""
-    shown: list[tuple[float, float]] = []
+    numbers: list[tuple[float, float]] = []
     for number, (x, y) in enumerate(places, 1):
-        free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in shown)
-        shown += [(x, y)] * free
+        free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in numbers)
+        numbers += [(x, y)] * free
         at = f"{x:.0f}", f"{y:.0f}"
         text = tag("text", number, x=at[0], y=f"{y + 5:.0f}", text_anchor="middle")
         ring = tag("circle", cx=at[0], cy=at[1], r="14")
@@ -176,8 +176,8 @@ def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | No
 
     ``late``: for each run the number of its colour and its delays; None leaves a gap.
     """
-    known = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
-    low, high = min(known), max(known)
+    leads_at_all = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
+    low, high = min(leads_at_all), max(leads_at_all)
     floor = _HEIGHT - BELOW
     up = (floor - _MARGIN) / ((high - low) or 1)
     px_per_tick = (_RIGHT - BESIDE) / (ticks[-1] or 1)

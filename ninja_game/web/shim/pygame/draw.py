@@ -98,8 +98,8 @@ def line(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> 
 def lines(surface: Surface, color: Any, closed: bool, points: Sequence[Any], width: int = 1) -> Rect:
     ends = [*points[1:], points[0]] if closed else points[1:]
     drawn = [line(surface, color, start, end, width) for start, end in zip(points, ends, strict=False)]
-    seen = [rect for rect in drawn if rect.w]
-    return seen[0].unionall(seen) if seen else make(int(points[0][0]), int(points[0][1]), 0, 0)
+    areas = [rect for rect in drawn if rect.w]
+    return areas[0].unionall(areas) if areas else make(int(points[0][0]), int(points[0][1]), 0, 0)
 
 
 def aaline(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> Rect:
