@@ -1,20 +1,25 @@
-"""Messages of a level as rows of text fields, and what drags make of the frames of those near a place."""
+"""Messages of a level as rows of text fields, their edits, and what drags make of the frames of those near a place."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
+from enum import StrEnum
 from functools import lru_cache, partial
+from typing import Any
 
+from ninja_game.document import History
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
     FRAME_SIZE,
     IMPORTANT,
+    MAX_MESSAGES,
     NO_CELL,
     SEPARATOR,
     WORDS,
     LevelMessage,
+    Moment,
     header_form,
     parse_messages,
     unknown_words,
@@ -24,15 +29,25 @@ from ninja_game.sim.grid import Cell
 _ONE = "Which one: column and row of the gold or switch, or a click on it in the picture; empty: the first of any"
 
 DETAILS = {
-    **dict.fromkeys(("switch", "lock", "trap"), ("any", _ONE, "Which one")),
-    "gold": ("any", f"{_ONE}; 3: after so many", "Which, how many"),
-    "death": ("deaths", "How many deaths: a number from 1 to 99", "How many"),
-    "after": ("seconds", "How many seconds: a number from 0.1 to 99.9", "How many"),
-    "at": ("12,5", "Column and row, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3", "Cell, frame"),
+    **dict.fromkeys((Moment.SWITCH, Moment.LOCK, Moment.TRAP), ("any", _ONE, "Which one")),
+    Moment.GOLD: ("any", f"{_ONE}; 3: after so many", "Which, how many"),
+    Moment.DEATH: ("deaths", "How many deaths: a number from 1 to 99", "How many"),
+    Moment.AFTER: ("seconds", "How many seconds: a number from 0.1 to 99.9", "How many"),
+    Moment.AT: ("12,5", "Column and row, 1,1 to 31,23, then perhaps the frame's size: 12,5 or 12,5 3x3", "Cell, frame"),
 }
 """What some moments may need besides: an example, a hint, and what the field is called."""
 
-DETAIL, TIME, TEXT = 1, -2, -1  # places of the fields in a row
+
+class Field(StrEnum):
+    """The fields of a row, in the order of the page. Not every moment has a DETAIL."""
+
+    MOMENT = "moment"
+    DETAIL = "detail"
+    TIME = "time"
+    IMPORTANT = "important"
+    TEXT = "text"
+
+
 GRIP = 9.0  # px of the level from the edge of a frame within which a drag sizes it
 
 _BAD_TIME = "Seconds: from 0.1 to 99.9, or empty"
@@ -44,9 +59,9 @@ def listed(words: Sequence[str]) -> str:
 
 @dataclass(eq=False)
 class MessageRow:
-    """A message in the list. ``when``: as of a LevelMessage. As typed: ``detail``, of DETAILS; ``time``, seconds."""
+    """A message in the list. As typed: ``detail``, of DETAILS; ``time``, seconds."""
 
-    when: str = "start"
+    when: Moment = Moment.START
     detail: str = ""
     text: str = ""
     time: str = ""
@@ -55,7 +70,9 @@ class MessageRow:
     @property
     def moment(self) -> str:
         detail = " ".join(self.detail.split())
-        return f"{self.when} {detail.replace(',', '.')} s" if self.when == "after" else f"{self.when} {detail}".strip()
+        if self.when == Moment.AFTER:
+            return f"{self.when} {detail.replace(',', '.')} s"
+        return f"{self.when} {detail}".strip()
 
     @property
     def source(self) -> str:
@@ -64,28 +81,28 @@ class MessageRow:
         return f"{self.moment}{shown_for}{IMPORTANT * self.important}: {header_form(self.text)}"
 
     @property
-    def problem(self) -> tuple[int, str]:
-        """Which field of the row is wrong, DETAIL, TIME or TEXT, and the problem in words; '' for none."""
+    def problem(self) -> tuple[Field, str]:
+        """Which field of the row is wrong, and the problem in words; '' for none."""
         moment = self.moment
         if self.when in DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
-            return DETAIL, DETAILS[self.when][1]
-        if not _fits(replace(self, when="start", detail="", text="a text").source):
-            return TIME, _BAD_TIME
+            return Field.DETAIL, DETAILS[self.when][1]
+        if not _fits(replace(self, when=Moment.START, detail="", text="a text").source):
+            return Field.TIME, _BAD_TIME
         if not self.text.strip():
-            return TEXT, "Type what is said, or remove the message"
+            return Field.TEXT, "Type what is said, or remove the message"
         if SEPARATOR in self.text:
-            return TEXT, f"A message has no {SEPARATOR}"
-        return TEXT, self.unknown and f"{self.unknown} is not one of {listed(WORDS)}"
+            return Field.TEXT, f"A message has no {SEPARATOR}"
+        return Field.TEXT, self.unknown and f"{self.unknown} is not one of {listed(WORDS)}"
 
     @property
     def parsed(self) -> LevelMessage | None:
         """The message, with another text; None at the start, and for a moment that is wrong."""
-        timeless = self.when == "start" or self.problem[0] == DETAIL
+        timeless = self.when == Moment.START or self.problem[0] == Field.DETAIL
         return None if timeless else parse_messages(f"{self.moment}: a text")[0]
 
     def put_at(self, cell: Cell, size: Cell) -> None:
         """Put the middle of its frame at a cell."""
-        self.detail = _detail(LevelMessage("at", "", cell=cell, size=size))
+        self.detail = _detail(LevelMessage(Moment.AT, "", cell=cell, size=size))
 
     @property
     def unknown(self) -> str:
@@ -106,6 +123,96 @@ def messages_of(says: str) -> list[MessageRow]:
         MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "", m.important)
         for m in parse_messages(says)
     ]
+
+
+def common_length(a: Sequence[object], b: Sequence[object]) -> int:
+    """How many items are the same from the beginning on.
+
+    >>> common_length("tonight", "today")
+    2
+    """
+    shorter = min(len(a), len(b))
+    return next((number for number in range(shorter) if a[number] != b[number]), shorter)
+
+
+class EditedMessages:
+    """The rows of a level's messages under edit, one of which is selected: the one with the number ``index``."""
+
+    def __init__(self, says: str) -> None:
+        self.rows = messages_of(says)
+        self.index = 0
+        self.history = History(self._values)
+        self._step: object = None
+
+    @property
+    def source(self) -> str:
+        return f" {SEPARATOR} ".join(row.source for row in self.rows)
+
+    @property
+    def selected(self) -> MessageRow | None:
+        return self.rows[self.index] if self.index < len(self.rows) else None
+
+    @property
+    def is_full(self) -> bool:
+        return len(self.rows) >= MAX_MESSAGES
+
+    @property
+    def valid(self) -> list[MessageRow]:
+        return [row for row in self.rows if not row.problem[1]]
+
+    def together(self, row: MessageRow) -> list[MessageRow]:
+        """All messages of the moment of one."""
+        return [other for other in self.rows if other.moment == row.moment]
+
+    def add(self) -> MessageRow:
+        row = MessageRow()
+        self._put(len(self.rows), row, self.rows)
+        return row
+
+    def copy(self) -> None:
+        if self.selected and not self.is_full:
+            self._put(self.index + 1, replace(self.selected), self.rows)
+
+    def move(self, by: int) -> None:
+        """Move the selected message by so many places, at most to an end."""
+        if selected := self.selected:
+            others = [other for other in self.rows if other is not selected]
+            self._put(self.index + by, selected, others)
+
+    def remove(self) -> None:
+        """Take the selected message away: the next one is selected, else the last."""
+        del self.rows[self.index : self.index + 1]
+        self.index = min(self.index, max(0, len(self.rows) - 1))
+
+    def _put(self, number: int, row: MessageRow, others: list[MessageRow]) -> None:
+        """Put a message at that place among others, and select it."""
+        self.index = min(max(0, number), len(others))
+        self.rows = [*others[: self.index], row, *others[self.index :]]
+
+    @property
+    def _values(self) -> tuple[tuple[Any, ...], ...]:
+        return tuple(map(astuple, self.rows))
+
+    def record(self, step: object) -> None:
+        """Put what has changed into the history; changes one after the other with one ``step`` are undone together."""
+        values = self._values
+        if values == self.history.draft:
+            return
+        if step is None or step != self._step:
+            self.history.begin()
+        self.history.change(values)
+        self._step = step
+
+    def restore(self, step: Callable[[], bool]) -> bool:
+        """Undo or redo in the history, and select the first message that changes; whether there was such a step."""
+        before = self.history.draft
+        if not step():
+            return False
+        values = self.history.draft
+        self._step = None
+        self.rows = [MessageRow(*row) for row in values]
+        self.index = min(common_length(before, values), max(0, len(values) - 1))
+        return True
 
 
 def _detail(message: LevelMessage) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from enum import StrEnum
+from functools import partial
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
@@ -28,10 +30,25 @@ WORDS = KEYS + TARGETS + NUMBER_WORDS
 
 _KEY = re.compile(r"\{([^{}]*)\}")
 _COUNTED = re.compile(r"(?:death|gold) ([1-9][0-9]?)|after ((?:[1-9][0-9]?|0(?=\.[1-9]))(?:\.[0-9])?) s")
-_PLACE = re.compile(r"(at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
+_PLACE = re.compile(r"(?:at|switch|gold|lock|trap) ([0-9]{1,2}),([0-9]{1,2})(?: ([1-9][0-9]?)x([1-9][0-9]?))?")
 _TIME = re.compile(r"(.*) for ((?!0+(?:\.0)? )[0-9]{1,2}(?:\.[0-9])?) s")
-ALL_GOLD = "all gold"
-_EVENTS = ("start", "switch", "gold", ALL_GOLD, "lock", "trap")
+
+
+class Moment(StrEnum):
+    """When a message is said, in the words of a file."""
+
+    START = "start"
+    SWITCH = "switch"
+    GOLD = "gold"
+    ALL_GOLD = "all gold"
+    DEATH = "death"
+    LOCK = "lock"
+    TRAP = "trap"
+    AFTER = "after"
+    AT = "at"
+
+
+_EVENTS = Moment.START, Moment.SWITCH, Moment.GOLD, Moment.ALL_GOLD, Moment.LOCK, Moment.TRAP
 _MOMENTS = (
     f"{', '.join(_EVENTS)}, 'lock 12,5' for one switch, 'gold 3', 'death 3', 'after 2.5 s', 'at 12,5' or 'at 12,5 3x3',"
     " then perhaps 'for 9 s' or 'for 1.5 s', and '!' if it is important"
@@ -41,13 +58,13 @@ _MOMENTS = (
 class LevelMessage(NamedTuple):
     """A message of a level to its player.
 
-    ``when``: a name of _EVENTS, "death", "after" or "at". ``number``: of deaths, of pieces of gold, or of seconds.
+    ``number``: of deaths, of pieces of gold, or of seconds.
     ``text``: up to MAX_MESSAGE_LINES lines.
-    ``cell``: column and row of "at", or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
+    ``cell``: column and row of the place, or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
     time. ``size``: of its frame, in cells: of an even number there is one more left of, or above, its cell.
     """
 
-    when: str
+    when: Moment
     text: str
     number: float = 0
     cell: Cell = NO_CELL
@@ -61,8 +78,8 @@ class LevelMessage(NamedTuple):
 
     @property
     def place(self) -> tuple[float, float] | None:
-        """The middle of the cell near which the message is shown, px; None for other moments than "at"."""
-        return middle_of(self.cell) if self.when == "at" else None
+        """The middle of the cell near which the message is shown, px; None for other moments than AT."""
+        return middle_of(self.cell) if self.when == Moment.AT else None
 
     def is_about(self, x: float, y: float) -> bool:
         """Whether the message is about a switch or gold at a point, px."""
@@ -89,8 +106,8 @@ class LevelMessage(NamedTuple):
 def parse_messages(value: str) -> tuple[LevelMessage, ...]:
     """The messages in a header's value, separated by bars. Raises LevelError.
 
-    >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1][:5]
-    ('death', 'Wait for the drone', 3, (0, 0), 9.0)
+    >>> parse_messages("start: {jump} jumps | death 3 for 9 s: Wait for the drone")[1][1:5]
+    ('Wait for the drone', 3, (0, 0), 9.0)
     """
     parts = value.split(SEPARATOR) if value.strip() else []
     if len(parts) > MAX_MESSAGES:
@@ -135,7 +152,7 @@ def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
     """
     parts = [part.strip() for part in says.split(SEPARATOR)]
     _, _, rest = parts[number].partition(",")
-    parts[number] = f"at {cell[0]},{cell[1]}" + rest.lstrip("0123456789")
+    parts[number] = f"{Moment.AT} {cell[0]},{cell[1]}" + rest.lstrip("0123456789")
     return f" {SEPARATOR} ".join(parts)
 
 
@@ -155,15 +172,16 @@ def _parse_message(part: str) -> LevelMessage:
     important, timed_moment = when.endswith(IMPORTANT), when.removesuffix(IMPORTANT).rstrip()
     timed = _TIME.fullmatch(timed_moment)
     moment, seconds = (timed[1], float(timed[2])) if timed else (timed_moment, 0.0)
-    message = LevelMessage(moment.split(" ")[0], text, seconds=seconds, important=important)
+    message = partial(LevelMessage, text=text, seconds=seconds, important=important)
     if moment in _EVENTS:
-        return message._replace(when=moment)
+        return message(Moment(moment))
+    kind = moment.partition(" ")[0]
     if match := _COUNTED.fullmatch(moment):
-        return message._replace(number=int(match[1]) if match[1] else float(match[2]))
-    if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[2]), int(match[3]))):
-        size = (int(match[4]), int(match[5])) if match[4] else FRAME_SIZE
-        if size[0] <= COLUMNS and size[1] <= ROWS and (match[1] == "at" or not match[4]):
-            return message._replace(cell=cell, size=size)
+        return message(Moment(kind), number=int(match[1]) if match[1] else float(match[2]))
+    if (match := _PLACE.fullmatch(moment)) and is_inside(cell := (int(match[1]), int(match[2]))):
+        size = (int(match[3]), int(match[4])) if match[3] else FRAME_SIZE
+        if size[0] <= COLUMNS and size[1] <= ROWS and (kind == Moment.AT or not match[3]):
+            return message(Moment(kind), cell=cell, size=size)
     raise LevelError("an unknown moment in 'says'", found=repr(when[:40]), expected=_MOMENTS)
 
 

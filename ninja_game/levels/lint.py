@@ -12,7 +12,7 @@ from math import cos, dist, isnan, pi, sin, sqrt
 from ninja_game.files.shown_text import counted
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.formats.ascii.writer import best_form
-from ninja_game.formats.messages import ALL_GOLD, NO_CELL, parse_messages
+from ninja_game.formats.messages import NO_CELL, Moment, parse_messages
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.sim import kinds, rules
 from ninja_game.sim.arithmetic import is_set
@@ -240,10 +240,10 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
     things = [spec for spec in ground.objects if well_formed(spec)]
     doors = {kind: [(o.x, o.y) for o in ground.doors.values() if o.mechanism == kind] for kind in (LOCKED, TRAP)}
     gold = [spec.values[:2] for spec in things if spec.kind == kinds.GOLD]
-    named: dict[str, tuple[str, Sequence[Sequence[float]]]] = {
-        "switch": ("exit", [spec.values[2:4] for spec in things if spec.kind == kinds.EXIT]),
-        "gold": ("gold", gold), ALL_GOLD: ("gold", gold),
-        "lock": ("locked door", doors[LOCKED]), "trap": ("trap door", doors[TRAP]),
+    named: dict[Moment, tuple[str, Sequence[Sequence[float]]]] = {
+        Moment.SWITCH: ("exit", [spec.values[2:4] for spec in things if spec.kind == kinds.EXIT]),
+        Moment.GOLD: ("gold", gold), Moment.ALL_GOLD: ("gold", gold),
+        Moment.LOCK: ("locked door", doors[LOCKED]), Moment.TRAP: ("trap door", doors[TRAP]),
     }  # fmt: skip
     for number, message in enumerate(parse_messages(says)):
         missing, places = named.get(message.when, ("", ()))
@@ -253,7 +253,7 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
             if cells:
                 column, row = message.cell
                 why += f" at {column},{row}" if missing == "gold" else f" with its switch at {column},{row}"
-        elif message.when == "gold" and message.number > len(gold):
+        elif message.when == Moment.GOLD and message.number > len(gold):
             why = f"the level has {counted(len(gold), 'piece')} of gold"
         elif message.place and not ground.comes_near(*message.middle, message.reach):
             why = "the ninja never comes near its place"

@@ -9,7 +9,7 @@ from ninja_game.formats.ascii.object_lines import DOORS
 from ninja_game.formats.replay.text import Replay
 from ninja_game.levels.findings import Finding, level_finding
 from ninja_game.levels.lint import level_findings, object_name
-from ninja_game.runs.messages import late_messages
+from ninja_game.runs.message_appearances import late_messages
 from ninja_game.sim.events import LOCK_OPENED
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.level import Body, Level, ObjectSpec, makes_object, well_formed

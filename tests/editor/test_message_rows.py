@@ -2,8 +2,8 @@
 
 import pytest
 
-from ninja_game.editor.message_rows import DETAIL, GRIP, TEXT, TIME, MessageRow, messages_of, moved_frame, sizing
-from ninja_game.formats.messages import LevelMessage
+from ninja_game.editor.message_rows import GRIP, Field, MessageRow, messages_of, moved_frame, sizing
+from ninja_game.formats.messages import LevelMessage, Moment
 from ninja_game.sim.rules import CELL
 
 ALL = (
@@ -19,27 +19,27 @@ def test_every_message_comes_back_as_it_was() -> None:
 @pytest.mark.parametrize(
     "row, problem",
     [
-        (MessageRow("at", "12,5", "x", "9,5"), (TEXT, "")),
-        (MessageRow("start", "", " "), (TEXT, "Type what is said, or remove the message")),
-        (MessageRow("start", "", "a | b"), (TEXT, "A message has no |")),
-        (MessageRow("start", "", "x", "0"), (TIME, "Seconds: from 0.1 to 99.9, or empty")),
-        (MessageRow("death", "0", "x"), (DETAIL, "How many deaths: a number from 1 to 99")),
-        (MessageRow("death", "3: x | start", "x"), (DETAIL, "How many deaths: a number from 1 to 99")),
+        (MessageRow(Moment.AT, "12,5", "x", "9,5"), (Field.TEXT, "")),
+        (MessageRow(Moment.START, "", " "), (Field.TEXT, "Type what is said, or remove the message")),
+        (MessageRow(Moment.START, "", "a | b"), (Field.TEXT, "A message has no |")),
+        (MessageRow(Moment.START, "", "x", "0"), (Field.TIME, "Seconds: from 0.1 to 99.9, or empty")),
+        (MessageRow(Moment.DEATH, "0", "x"), (Field.DETAIL, "How many deaths: a number from 1 to 99")),
+        (MessageRow(Moment.DEATH, "3: x | start", "x"), (Field.DETAIL, "How many deaths: a number from 1 to 99")),
     ],
 )
-def test_the_field_that_is_wrong_is_named_with_its_problem(row: MessageRow, problem: tuple[int, str]) -> None:
+def test_the_field_that_is_wrong_is_named_with_its_problem(row: MessageRow, problem: tuple[Field, str]) -> None:
     assert row.problem == problem
 
 
 def test_a_row_is_a_message_once_its_moment_is_right() -> None:
-    row = MessageRow("at", "40,1", "")
-    assert (row.parsed, MessageRow("start", "", "x").parsed) == (None, None)
+    row = MessageRow(Moment.AT, "40,1", "")
+    assert (row.parsed, MessageRow(Moment.START, "", "x").parsed) == (None, None)
     row.put_at((12, 5), (2, 4))
-    assert (row.detail, row.parsed) == ("12,5 2x4", LevelMessage("at", "a text", cell=(12, 5), size=(2, 4)))
+    assert (row.detail, row.parsed) == ("12,5 2x4", LevelMessage(Moment.AT, "a text", cell=(12, 5), size=(2, 4)))
 
 
 def test_a_drag_sizes_a_frame_by_its_edge_or_corner_and_moves_it_by_its_middle() -> None:
-    message = LevelMessage("at", "x", cell=(12, 5), size=(5, 3))
+    message = LevelMessage(Moment.AT, "x", cell=(12, 5), size=(5, 3))
     left, top, columns, rows = message.frame
     corner, (x, y) = (CELL * left, CELL * top), message.middle
     for at, cell, becomes in (

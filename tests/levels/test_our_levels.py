@@ -14,7 +14,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import DIFFICULTY_GRADES
 from ninja_game.levels.lint import level_warnings
-from ninja_game.runs.messages import FALL_HELP, WHY
+from ninja_game.runs.advice import FALL_HELP, WHY
 from ninja_game.runs.packs import make_pars
 from ninja_game.sim.kinds import GOLD
 

@@ -18,9 +18,9 @@ from ninja_game.formats.ascii.object_lines import FORMS
 from ninja_game.learn.observations import objects
 from ninja_game.learn.observations.pixels import SHADES
 from ninja_game.levels.picture import SIGN_COLOURS
+from ninja_game.runs.advice import WHY
 from ninja_game.runs.deaths import KILLERS, SELF
 from ninja_game.runs.level_design import clearance
-from ninja_game.runs.messages import WHY
 from ninja_game.runs.trace import trace_level
 from ninja_game.search.formula.names import FLAGS
 from ninja_game.sim import events, kinds

@@ -20,12 +20,12 @@ from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import counted, file_stem
 from ninja_game.files.user_folder import LEVELS, free_path
 from ninja_game.formats.ascii.writer import headers_of
-from ninja_game.formats.messages import parse_messages
+from ninja_game.formats.messages import Moment, parse_messages
 from ninja_game.levels.episodes import GAME, Entry, Mood
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
-from ninja_game.play.editor.messages import MessagesScreen
+from ninja_game.play.editor.messages_screen import MessagesScreen
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.session import EditorSession
@@ -37,7 +37,7 @@ from ninja_game.play.menus.browser import LevelChoice
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
 from ninja_game.play.panels.help import HelpPage
 from ninja_game.play.workspace import CommandMenu, CommandTable, DocumentCommands, bundled_commands, key_text
-from ninja_game.runs.messages import appearances
+from ninja_game.runs.message_appearances import appearances
 from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.grid import Cell, Point, cell_of
 from ninja_game.sim.kinds import EXIT, NINJA
@@ -271,7 +271,7 @@ class EditorCommands(DocumentCommands):
         """
         session, messages = self.session, parse_messages(says)
         level, message = session.draft.level, messages[number] if messages else None
-        if message is None or message.when in {"start", "death"}:
+        if message is None or message.when in {Moment.START, Moment.DEATH}:
             self.playtest(says=says, deaths=int(message.number) if message else 0)
             return
         waits = bytes(int(message.number * TICKS_PER_SECOND) + 1)
@@ -283,7 +283,7 @@ class EditorCommands(DocumentCommands):
             if lead is not None:
                 self.playtest(says=says, lead=lead)
                 return
-        at = place and place_before(session.draft, place, message.size, touch=message.when != "at")
+        at = place and place_before(session.draft, place, message.size, touch=message.when != Moment.AT)
         self.playtest(at, says=says)
 
     def certify(self) -> None:

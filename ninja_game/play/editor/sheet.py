@@ -16,7 +16,7 @@ import pygame
 from ninja_game.editor.draft import Draft, changed_cells
 from ninja_game.editor.playtests import PathPoints, PlaytestMap
 from ninja_game.editor.specs import BODY_PART, SWITCH_PART, has_switch, object_type_name, points
-from ninja_game.formats.messages import LevelMessage, parse_messages
+from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.palette_view import ObjectPictures, ObjectSprites
 from ninja_game.sim import kinds
@@ -305,12 +305,12 @@ def message_near(draft: Draft, x: float, y: float) -> int | None:
 
 
 _SAID_AT = {
-    "start": ("ninja", BODY_PART), "switch": ("exit", SWITCH_PART), "gold": ("gold", BODY_PART),
-    "lock": ("locked door", SWITCH_PART), "trap": ("trap door", SWITCH_PART),
+    Moment.START: ("ninja", BODY_PART), Moment.SWITCH: ("exit", SWITCH_PART), Moment.GOLD: ("gold", BODY_PART),
+    Moment.LOCK: ("locked door", SWITCH_PART), Moment.TRAP: ("trap door", SWITCH_PART),
 }  # fmt: skip
 
 
-def things_of(draft: Draft, when: str) -> list[Point]:
+def things_of(draft: Draft, when: Moment) -> list[Point]:
     """Places of the objects whose touch is the moment ``when`` of a message, px; none for other moments."""
     name, part = _SAID_AT.get(when, ("", BODY_PART))
     places = [points(spec) for spec in draft.objects if object_type_name(spec) == name]

@@ -12,8 +12,8 @@ from ninja_game.play.level.level_play import STAMP_TICKS, LevelPlay, Phase
 from ninja_game.player.player_data import FIRST_PASS, NEW_ALL_GOLD, OF_A_LEVEL
 from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
+from ninja_game.runs.advice import FALL_HELP, WHY
 from ninja_game.runs.deaths import SELF
-from ninja_game.runs.messages import FALL_HELP, WHY
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
@@ -152,9 +152,9 @@ def cause_of_death(play: LevelPlay) -> tuple[str, str]:
     if play.attempt.self_inflicted:
         return "You gave up", ""
     if play.killer != SELF:
-        return f"Killed by a {play.killer}", WHY[play.killer] if play.messages.helps else ""
+        return f"Killed by a {play.killer}", WHY[play.killer] if play.helps else ""
     if play.crushed:
         return "You were crushed", ""
     if play.attempt.lifetime <= 0:
         return "Out of time", ""
-    return "You hit the ground too hard", FALL_HELP if play.messages.helps else ""
+    return "You hit the ground too hard", FALL_HELP if play.helps else ""

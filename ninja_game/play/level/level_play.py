@@ -14,8 +14,9 @@ from ninja_game.play.replay.playback import Ghost, Playback, RunClock
 from ninja_game.player.attempt import Attempt, AttemptState
 from ninja_game.player.playthrough import Playthrough
 from ninja_game.player.progress import HELPED
+from ninja_game.runs.advice import Advice
 from ninja_game.runs.deaths import cause_of
-from ninja_game.runs.messages import MessageQueue, in_two
+from ninja_game.runs.message_queue import MessageQueue, in_two
 from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
@@ -110,9 +111,10 @@ class LevelPlay:
         self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = playthrough.level.gold
         self.show_tutorial = playthrough.show_tutorial
-        happens, places = in_two(messages)
+        self.helps = playthrough.shows_messages  #: whether the game gives advice
         teaches = bool(messages) and playthrough.entry.source != GAME
-        self.messages = MessageQueue(happens, helps=playthrough.shows_messages, teaches=teaches)
+        happens, places = in_two(messages)
+        self.messages = MessageQueue(happens, advice=Advice() if self.helps and not teaches else None)
         self.places = MessageQueue(places, self.attempt.simulation.tiles)  #: their texts come beside the others
         self.queues = self.messages, self.places
         for _ in range(playthrough.deaths):

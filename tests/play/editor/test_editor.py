@@ -29,7 +29,7 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.bars import StatusLine, Toolbar
 from ninja_game.play.editor.commands import EDITOR_COMMANDS
-from ninja_game.play.editor.messages import MessagesScreen
+from ninja_game.play.editor.messages_screen import MessagesScreen
 from ninja_game.play.editor.object_list import ObjectList
 from ninja_game.play.editor.panels import Findings
 from ninja_game.play.editor.part import ToolButton

@@ -13,16 +13,18 @@ import pytest
 
 from ninja_game.editor import packs
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import DETAIL, TEXT, TIME, MessageRow
+from ninja_game.editor.message_rows import Field, MessageRow
 from ninja_game.editor.playtests import lead_in, place_before
 from ninja_game.editor.solver import search_of
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, WORDS, level_text, parse_messages
+from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, WORDS, Moment, level_text, parse_messages
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.levels.episodes import Mood
-from ninja_game.play.editor import messages as messages_module
-from ninja_game.play.editor.messages import _PICTURE, _WHEN, MessagesScreen
+from ninja_game.play.editor import message_checks, message_picture
+from ninja_game.play.editor.message_form import MOMENT_TEXTS
+from ninja_game.play.editor.message_picture import PICTURE
+from ninja_game.play.editor.messages_screen import MessagesScreen
 from ninja_game.play.editor.playtest import PlaytestScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.sheet import message_places
@@ -31,7 +33,7 @@ from ninja_game.play.level.hud_view import hud_view
 from ninja_game.play.level.level_play import LevelPlay, Phase
 from ninja_game.play.menu_screen import Menu
 from ninja_game.player.playthrough import Playthrough
-from ninja_game.runs.messages import MessageQueue, read_ticks
+from ninja_game.runs.message_queue import MessageQueue, read_ticks
 from ninja_game.runtime import NewestJob
 from ninja_game.search.certificate import verified_run
 from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
@@ -43,7 +45,7 @@ from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.text_entry import TextArea, TextEntry
 from ninja_game.ui.theme import TEXT_SIZES, Palette, Theme
-from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button, Label
+from ninja_game.ui.widgets import PAD, TEXT_SIZE as TEXT_PX, Button
 from ninja_game.view.hud import Box, Hud
 from ninja_game.view.sprites.thumbnail import thumbnail
 from tests.support.draw_log import DrawLog, drawn
@@ -85,20 +87,20 @@ def add(maker: Maker, *texts: str) -> None:
 
 def show(screen: MessagesScreen, *messages: MessageRow) -> None:
     """Other messages on the page."""
-    screen.messages = [*messages]
+    screen.edited.rows = [*messages]
     screen.enter()
 
 
 def texts_of(screen: MessagesScreen) -> str:
-    return "".join(message.text for message in screen.messages)
+    return "".join(message.text for message in screen.edited.rows)
 
 
-def select(maker: Maker, row: int, column: int = -1) -> None:
+def select(maker: Maker, row: int, field: Field = Field.TEXT) -> None:
     """Click on a message in the list, then into a field of it."""
     screen = maker.shown(MessagesScreen)
     x, y, _, h = screen.list.row_area(row)
     maker.mouse(x + 60, y + h / 2)
-    maker.mouse(*screen.fields[column].centre)
+    maker.mouse(*screen.form.fields[field].centre)
     maker.frames()
 
 
@@ -112,7 +114,7 @@ def with_time_in_hand(maker: Maker) -> MessagesScreen:
     screen = opened(maker)
     add(maker, "on")
     assert "text 'auto (12 s)'" in drawn(maker.app)
-    select(maker, 0, TIME)
+    select(maker, 0, Field.TIME)
     return screen
 
 
@@ -125,7 +127,7 @@ class AtOnce(NewestJob[Any, Any]):
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(messages_module, "NewestJob", AtOnce)
+    monkeypatch.setattr(message_checks, "NewestJob", AtOnce)
 
 
 @pytest.fixture
@@ -137,7 +139,7 @@ def painted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names.append(palette.name)
         return thumbnail(level, palette, width, opened=opened)
 
-    monkeypatch.setattr(messages_module, "thumbnail", paint)
+    monkeypatch.setattr(message_picture, "thumbnail", paint)
     return names
 
 
@@ -156,7 +158,7 @@ def boxes(monkeypatch: pytest.MonkeyPatch) -> list[Box]:
 
 def in_picture(column: float, row: float) -> tuple[float, float]:
     """Where the preview shows the middle of a cell."""
-    left, top, wide, _ = _PICTURE
+    left, top, wide, _ = PICTURE
     return left + (24 * column + 12) * wide / 792, top + (24 * row + 12) * wide / 792
 
 
@@ -165,7 +167,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.shown(MessagesScreen)
     add(room, "run")
     add(room, "")
-    select(room, 1, 0)
+    select(room, 1, Field.MOMENT)
     room.choose("Exit opens")
     add(room, "on")
     select(room, 1)
@@ -185,22 +187,22 @@ def test_what_is_typed_goes_to_the_text_of_the_row_and_changes_no_moment(room: M
     add(room, "")
     screen.focus = screen.list
     room.type("a b")
-    assert (screen.messages[0].when, screen.messages[0].text) == ("start", "a b")
+    assert (screen.edited.rows[0].when, screen.edited.rows[0].text) == ("start", "a b")
 
 
 def test_all_moments_are_listed_and_one_is_taken(room: Maker) -> None:
     screen = opened(room)
     add(room, "a")
-    for when, (name, _) in _WHEN.items():
-        before = screen.messages[0].when
-        room.choose(f"{_WHEN[before][0]}...")
+    for when, (name, _) in MOMENT_TEXTS.items():
+        before = screen.edited.rows[0].when
+        room.choose(f"{MOMENT_TEXTS[before][0]}...")
         listed = [getattr(each, "text", "") for each in room.shown(Menu).widgets]
-        assert listed == [*(each for each, _ in _WHEN.values()), "Cancel"]
+        assert listed == [*(each for each, _ in MOMENT_TEXTS.values()), "Cancel"]
         room.choose("Cancel")
-        assert screen.messages[0].when == before
-        room.choose(f"{_WHEN[before][0]}...")
+        assert screen.edited.rows[0].when == before
+        room.choose(f"{MOMENT_TEXTS[before][0]}...")
         room.choose(name)
-        assert (screen.messages[0].when, screen.messages[0].text) == (when, "a")
+        assert (screen.edited.rows[0].when, screen.edited.rows[0].text) == (when, "a")
 
 
 def test_those_of_one_moment_are_numbered_with_their_seconds(room: Maker) -> None:
@@ -216,40 +218,40 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
     screen = with_time_in_hand(room)
     room.type("0")
     room.choose("OK")
-    assert screen._refused
-    assert screen.focus is screen.fields[TIME]
+    assert screen.checks.refused
+    assert screen.focus is screen.form.fields[Field.TIME]
     room.press("backspace")
     room.type("25")
     room.press("return")
     assert room.draft.says == "start for 25 s: on"
-    assert opened(room).source == room.draft.says
+    assert opened(room).edited.source == room.draft.says
 
 
 def test_all_messages_are_seen_in_a_list_in_which_one_is_selected(room: Maker) -> None:
     screen = opened(room)
     add(room, *"abcdefghijklmnop")
     assert not room.button("Add").enabled
-    assert (screen.list.index, screen.focus) == (15, screen.fields[TEXT])
+    assert (screen.list.index, screen.focus) == (15, screen.form.fields[Field.TEXT])
     assert all(re.search(rf"text '{letter}' at 170,.* size 9", drawn(room.app)) for letter in "abcdefghijklmnop")
-    screen.messages[5].text = ""
+    screen.edited.rows[5].text = ""
     x, y, _, h = screen.list.row_area(3)
     room.mouse(x + 60, y + h / 2)
     assert (screen.list.index, screen.focus) == (3, screen.list)
     room.press("down", "down", "up")
-    assert (screen.list.index, getattr(screen.fields[TEXT], "text", "")) == (4, "e")
+    assert (screen.list.index, getattr(screen.form.fields[Field.TEXT], "text", "")) == (4, "e")
     room.mouse(x + 60, y + h / 2, click=False)
     assert screen.list.index == 4, "the way of the mouse to the fields selects nothing"
     room.mouse(x + 60, y + h / 2)
     assert (screen.list.index, screen.focus) == (3, screen.list)
     room.mouse(x + 60, y + h / 2)
-    assert (screen.list.index, screen.focus) == (3, screen.fields[TEXT]), "a second click leads to the text"
+    assert (screen.list.index, screen.focus) == (3, screen.form.fields[Field.TEXT]), "a second click leads to the text"
     for notches, number in ((-1, 4), (1, 3), (2, 1), (9, 0)):
         room.wheel(notches, x + 9, 450)
         assert screen.list.index == number
     room.wheel(-1, *in_picture(9, 9))
     assert screen.list.index == 0
     room.choose("OK")
-    assert (screen.list.index, screen.focus) == (5, screen.fields[TEXT]), "what is wrong is shown"
+    assert (screen.list.index, screen.focus) == (5, screen.form.fields[Field.TEXT]), "what is wrong is shown"
     room.choose("Remove")
     assert texts_of(screen) == "abcdeghijklmnop"
 
@@ -278,7 +280,7 @@ def test_all_places_are_seen_and_a_click_on_one_selects_its_message(room: Maker)
     assert shown.count("circle accent") == 4
     assert len(re.findall(r"frame \S+ .* 120 x 120", shown)) == 2
     for point, selected in (((300.0, 300.0), 3), ((120.0, 540.0), 4), ((132.0, 132.0), 1)):
-        left, top, wide, _ = _PICTURE
+        left, top, wide, _ = PICTURE
         room.mouse(left + point[0] * wide / 792, top + point[1] * wide / 792)
         assert screen.list.index == selected
 
@@ -298,7 +300,7 @@ def test_a_word_that_is_not_known_is_named_at_its_field_while_it_is_typed(room: 
 def test_all_messages_fit_into_the_page_and_one_is_removed(room: Maker) -> None:
     twice = f"{ALL} | {ALL}"
     screen = opened(room, twice)
-    assert len(screen.messages) == MAX_MESSAGES
+    assert len(screen.edited.rows) == MAX_MESSAGES
     assert not room.button("Add").enabled
     room.choose("OK")
     assert room.draft.says == twice
@@ -316,17 +318,17 @@ def test_all_messages_fit_into_the_page_and_one_is_removed(room: Maker) -> None:
 @pytest.mark.parametrize(
     "message, in_detail, wanted",
     [
-        (MessageRow("start", "", " "), False, "Type what is said"),
-        (MessageRow("start", "", "{fly} flies"), False, "{fly} is not one of {left}"),
-        (MessageRow("at", "32,1", "x"), True, "31,23"),
-        (MessageRow("after", "0", "x"), True, "How many seconds"),
+        (MessageRow(Moment.START, "", " "), False, "Type what is said"),
+        (MessageRow(Moment.START, "", "{fly} flies"), False, "{fly} is not one of {left}"),
+        (MessageRow(Moment.AT, "32,1", "x"), True, "31,23"),
+        (MessageRow(Moment.AFTER, "0", "x"), True, "How many seconds"),
     ],
 )
 def test_what_is_wrong_keeps_the_focus_and_is_said(
     room: Maker, message: MessageRow, in_detail: bool, wanted: str
 ) -> None:
     screen = opened(room)
-    show(screen, MessageRow("start", "", "fine"), message)
+    show(screen, MessageRow(Moment.START, "", "fine"), message)
     room.choose("OK")
     assert room.top() is screen
     assert (wanted if message.unknown == "" else "There is no {fly}") in words(room)
@@ -344,9 +346,9 @@ def test_a_place_begins_at_the_ninja_or_with_what_is_selected_and_is_shown_by_a_
     add(room, "here")
     room.choose("At the start...")
     room.choose("Near a place")
-    assert (screen.messages[0].when, screen.messages[0].detail) == ("at", "2,22")
+    assert (screen.edited.rows[0].when, screen.edited.rows[0].detail) == ("at", "2,22")
     room.mouse(*in_picture(20, 4))
-    assert screen.messages[0].detail == "20,4"
+    assert screen.edited.rows[0].detail == "20,4"
     assert "text '20,4'" in drawn(room.app)
     room.mouse(*in_picture(0, 4))
     room.choose("OK")
@@ -366,7 +368,10 @@ def test_a_place_begins_at_the_ninja_or_with_what_is_selected_and_is_shown_by_a_
     assert ("message", (492.0, 108.0)) in room.editor.view.sheet.marks
     tools.history.change(with_stamp(room.draft, Stamp({}, (ObjectSpec(GOLD, (60.0, 60.0)),))))
     tools.choose(frozenset({(len(room.draft.objects) - 1, 0)}))
-    assert opened(room)._here == (2, 2)
+    opened(room)
+    room.choose("Add")
+    room.choose("Near a place")
+    assert "text '2,2'" in drawn(room.app)
 
 
 def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> None:
@@ -374,11 +379,11 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     for cell, selected in (((20, 12), 1), ((6, 5), 0), ((10, 10), 0)):
         room.mouse(*in_picture(*cell))
         room.frames()
-        assert (screen.list.index, screen.focus) == (selected, screen.fields[TEXT])
-    assert [each.detail for each in screen.messages] == ["10,10", "20,12", ""]
+        assert (screen.list.index, screen.focus) == (selected, screen.form.fields[Field.TEXT])
+    assert [each.detail for each in screen.edited.rows] == ["10,10", "20,12", ""]
     select(room, 2)
     room.mouse(*in_picture(25, 3))
-    assert screen.source == "at 10,10: One | at 20,12: Two | start: Go", "what is said at the start has no place"
+    assert screen.edited.source == "at 10,10: One | at 20,12: Two | start: Go", "what is said at the start has no place"
     assert "choose Near a place" in room.app.notice
 
 
@@ -400,15 +405,15 @@ def test_a_frame_is_drawn_moved_and_sized_by_the_mouse_its_other_edges_stay(room
         ((21, 17), (1, 20), (0, 19, 6, 5)), ((5.5, 21), (14, 15), (0, 19, 15, 5)),
     ):  # fmt: skip
         drag_in_picture(room, begin, end)
-        (placed,) = parse_messages(screen.messages[0].source)
+        (placed,) = parse_messages(screen.edited.rows[0].source)
         assert placed.frame == frame
-        assert f"'{screen.messages[0].detail}'" in drawn(room.app)
+        assert f"'{screen.edited.rows[0].detail}'" in drawn(room.app)
     drag_in_picture(room, (20, 10), (22, 11), (20, 10))
-    assert screen.messages[0].detail == "20,10 1x1", "a drag back ends where it began"
+    assert screen.edited.rows[0].detail == "20,10 1x1", "a drag back ends where it began"
     room.mouse(*in_picture(25, 5))
-    assert screen.source == "at 25,5 1x1: One | at 3,3: Two", "a click puts it there"
+    assert screen.edited.source == "at 25,5 1x1: One | at 3,3: Two", "a click puts it there"
     room.mouse(*in_picture(3, 3))
-    assert screen.selected is screen.messages[1]
+    assert screen.edited.selected is screen.edited.rows[1]
 
 
 def test_a_message_under_the_mouse_shows_the_frame_that_it_has(room: Maker) -> None:
@@ -435,12 +440,12 @@ def test_a_message_is_tried_from_just_before_it_and_esc_comes_back(room: Maker) 
         room.press("escape")
         assert room.top() is screen
     assert places == [(60.0, 3), (17 * 24 + 12.0, 3), (2 * 24 + 12.0, 3)]
-    screen.messages[1].detail = "20,22 9x5"
+    screen.edited.rows[1].detail = "20,22 9x5"
     select(room, 1)
     room.choose("Test")
     assert room.shown(PlaytestScreen).attempt.simulation.ninja.x == 15 * 24 + 12.0, "before its wider frame"
     room.press("escape")
-    screen.messages[0].text = ""
+    screen.edited.rows[0].text = ""
     room.choose("Test")
     assert room.top() is screen
     assert "Type what is said" in words(room)
@@ -491,8 +496,8 @@ def test_a_message_lies_where_it_will_in_play_wherever_its_test_begins(room: Mak
     session.certifier.certification = search_of(room.draft.level, run)
     screen = opened(room)
     drawn(room.app)
-    assert screen._known.result
-    shown = screen._known.result[2]
+    assert screen.checks._known_run.result
+    shown = screen.checks._known_run.result[2]
     assert len(shown) > 3, "the run's way too"
     room.choose("Test")
     trying = room.shown(PlaytestScreen)
@@ -529,7 +534,7 @@ def test_the_selected_message_is_shown_as_the_level_says_it_with_its_letters_cou
     assert "'12 of 120'" in drawn(room.app)
     select(room, 1)
     assert f"text '{key} jumps'" not in drawn(room.app)
-    screen.messages[1].text = "x" * MAX_LETTERS
+    screen.edited.rows[1].text = "x" * MAX_LETTERS
     screen.enter()
     select(room, 1)
     room.type("y")
@@ -569,7 +574,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     room.drag((24 * 12 + 12, 24 * 5 + 12))
     screen = room.shown(MessagesScreen)
-    assert (screen.list.index, screen.focus) == (3, screen.fields[TEXT])
+    assert (screen.list.index, screen.focus) == (3, screen.form.fields[Field.TEXT])
     assert room.draft == before
 
 
@@ -583,7 +588,7 @@ def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker)
     room.drag(bubble)
     room.drag(bubble)
     screen = room.shown(MessagesScreen)
-    assert (screen.list.index, screen.focus) == (2, screen.fields[TEXT])
+    assert (screen.list.index, screen.focus) == (2, screen.form.fields[Field.TEXT])
     assert room.draft == before
 
 
@@ -612,7 +617,9 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
     start = boxes[-1]
-    assert screen.fields[TEXT].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", "no braces in it"
+    assert screen.form.fields[Field.TEXT].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", (
+        "no braces in it"
+    )
     select(room, 1)
     screen.redraw = True
     room.frames()
@@ -703,15 +710,15 @@ def test_a_click_in_the_picture_names_the_one_door_that_is_meant(doors: Maker) -
     screen = opened(doors, "lock: One | gold: Two | start: Go")
     assert "A click in the picture on one of them: only when it is that one." in words(doors)
     doors.mouse(*in_picture(11, 22))
-    assert screen.messages[0].detail == "11,22"
+    assert screen.edited.rows[0].detail == "11,22"
     assert "text '11,22'" in drawn(doors.app)
     select(doors, 1)
     doors.mouse(*in_picture(18, 22))
     select(doors, 2)
     doors.mouse(*in_picture(13, 22))
-    assert screen.source == "lock 11,22: One | gold 18,22: Two | start: Go"
+    assert screen.edited.source == "lock 11,22: One | gold 18,22: Two | start: Go"
     doors.choose("OK")
-    assert doors.draft.says == screen.source
+    assert doors.draft.says == screen.edited.source
     assert list(message_places(doors.draft)) == [(11 * 24 + 28, 522.0), (18 * 24 + 28, 522.0), (100.0, 522.0)]
     run = Simulation(doors.draft.level)
     queue, heard_at = MessageQueue(parse_messages("lock 11,22: One | gold 18,22: Two")), dict[str, int]()
@@ -729,12 +736,12 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
     assert (texts_of(screen), screen.list.index) == ("acb", 1)
     room.choose("Copy")
     assert (texts_of(screen), screen.list.index) == ("accb", 2)
-    assert screen.source == "start: a | after 9 s for 4 s: c | after 9 s for 4 s: c | switch: b"
+    assert screen.edited.source == "start: a | after 9 s for 4 s: c | after 9 s for 4 s: c | switch: b"
     select(room, 2)
     room.type("d")
     assert texts_of(screen) == "accdb", "a copy of its own"
     room.chord("down", pygame.KMOD_LCTRL)
-    assert (texts_of(screen), screen.list.index, screen.focus) == ("acbcd", 3, screen.fields[TEXT])
+    assert (texts_of(screen), screen.list.index, screen.focus) == ("acbcd", 3, screen.form.fields[Field.TEXT])
     room.chord("down", pygame.KMOD_LCTRL)
     assert texts_of(screen) == "acbcd", "it is the last"
     with patch.object(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT):
@@ -747,8 +754,8 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
     assert (texts_of(screen), screen.list.index) == ("cdaccdb", 3), "the button keeps the focus"
     for _ in range(MAX_MESSAGES):
         room.chord("d", pygame.KMOD_LCTRL)
-    assert len(screen.messages) == MAX_MESSAGES
-    screen.messages = []
+    assert len(screen.edited.rows) == MAX_MESSAGES
+    screen.edited.rows = []
     screen.enter()
     assert [room.button(text).enabled for text in ("Add", "Copy", "Up", "Down", "Remove")] == [True] + 4 * [False]
     room.chord("up", pygame.KMOD_LCTRL)
@@ -757,10 +764,10 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
 def test_seconds_are_called_automatic_until_they_are_set(room: Maker) -> None:
     screen = with_time_in_hand(room)
     room.type("7")
-    screen.messages[0].text = "long " * 24
+    screen.edited.rows[0].text = "long " * 24
     screen.enter()
     assert "auto" not in drawn(room.app)
-    assert screen.messages[0].time == "7"
+    assert screen.edited.rows[0].time == "7"
 
 
 @pytest.mark.parametrize("size", TEXT_SIZES.values())
@@ -768,8 +775,8 @@ def test_seconds_are_called_automatic_until_they_are_set(room: Maker) -> None:
 def test_names_of_moments_and_buttons_are_never_cut(room: Maker, size: int, width: int) -> None:
     screen = opened(room, "lock for 1 s: a | start: b | at 1,1: c | gold: d | switch: e")
     theme = Theme(room.app.theme.palette, Canvas((width, width * 600 // 792)), size)
-    names = [f"{name}..." for name, _ in _WHEN.values()]
-    moment = screen.fields[0]
+    names = [f"{name}..." for name, _ in MOMENT_TEXTS.values()]
+    moment = screen.form.fields[Field.MOMENT]
     buttons = [(text, moment) for text in names] + [(w.text, w) for w in screen.widgets if isinstance(w, Button)]
     for text, button in buttons:
         assert isinstance(button, Button)
@@ -947,17 +954,17 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
 def test_buttons_stay_in_their_place_and_nothing_lies_over_anything_else(room: Maker, count: int) -> None:
     screen = opened(room)
     fixed = [room.button(text).area for text in BUTTONS]
-    show(screen, *[MessageRow("at", "8,21", "x")] * count)
+    show(screen, *[MessageRow(Moment.AT, "8,21", "x")] * count)
     assert [room.button(text).area for text in BUTTONS] == fixed
-    seen = (widget.area for widget in screen.widgets if not isinstance(widget, Label))
-    areas = [pygame.Rect(*map(round, area)) for area in (_PICTURE, *seen)]
+    seen = (widget.area for widget in screen.widgets)
+    areas = [pygame.Rect(*map(round, area)) for area in (PICTURE, *seen)]
     assert all(area.collidelistall(areas) == [place] for place, area in enumerate(areas))
     assert not screen.offers_back, "OK and Cancel are the ways out"
 
 
 def test_each_moment_is_explained_by_its_row(room: Maker) -> None:
     screen = opened(room)
-    for when, (name, text) in _WHEN.items():
+    for when, (name, text) in MOMENT_TEXTS.items():
         show(screen, MessageRow(when, "", "x"))
         assert f"{name}: {text[0].lower()}{text[1:]}." in words(room)
 
@@ -971,18 +978,18 @@ def test_the_preview_is_the_games_picture_painted_once_with_its_labels(room: Mak
     assert "text '1 of 16'" in shown
     assert len(painted) == 1
     screen = room.shown(MessagesScreen)
-    screen.messages[0].text = "to the {switch} and the {exit}"
+    screen.edited.rows[0].text = "to the {switch} and the {exit}"
     shown = drawn(room.app)
     assert "text 'switch'" in shown
     assert "text 'exit'" in shown
     assert len(painted) == 1
-    screen.messages.append(MessageRow("start", "", "Now the {exit}"))
+    screen.edited.rows.append(MessageRow(Moment.START, "", "Now the {exit}"))
     screen.select(1)
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "only what the selected one names"
     assert "text 'exit'" in shown
     screen.select(0)
-    screen.messages[0].when = "switch"
+    screen.edited.rows[0].when = Moment.SWITCH
     shown = drawn(room.app)
     assert "text 'switch'" not in shown, "the exit is open by then"
     assert "text 'exit'" in shown
@@ -1017,8 +1024,8 @@ def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker
         room.type(line)
         room.press("return")
     assert room.top() is screen
-    assert screen.messages[0].text == "Run\njump\nand see", "three lines are the most"
-    field = screen.fields[TEXT]
+    assert screen.edited.rows[0].text == "Run\njump\nand see", "three lines are the most"
+    field = screen.form.fields[Field.TEXT]
     assert isinstance(field, TextArea)
     shown = drawn(room.app)
     for line in ("Run", "jump", "and see"):
@@ -1029,7 +1036,7 @@ def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker
     assert field.edited.cursor == 3, "a click behind a line leads to its end"
     room.chord("return", pygame.KMOD_LCTRL)
     assert room.draft.says == r"start: Run\njumpz\nand see"
-    assert [message.text for message in opened(room).messages] == ["Run\njumpz\nand see"]
+    assert [message.text for message in opened(room).edited.rows] == ["Run\njumpz\nand see"]
 
 
 def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
@@ -1038,7 +1045,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     room.type("Run")
     room.press("return")
     drawn(room.app)
-    field = screen.fields[TEXT]
+    field = screen.form.fields[Field.TEXT]
     assert isinstance(field, TextArea)
     assert [first for first, _ in field._rows] == [0, 4]
     assert field._cursor_row == 1
@@ -1055,23 +1062,23 @@ def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> N
     room.type("Well done")
     room.choose("At the start...")
     room.choose("All gold taken")
-    assert screen.source == "all gold: Well done"
+    assert screen.edited.source == "all gold: Well done"
     assert "Never shown" not in drawn(room.app)
     room.choose("All gold taken...")
     room.choose("Gold is taken")
-    room.mouse(*screen.fields[DETAIL].centre)
+    room.mouse(*screen.form.fields[Field.DETAIL].centre)
     room.type("3")
-    assert screen.source == "gold 3: Well done"
+    assert screen.edited.source == "gold 3: Well done"
     assert "Never shown: the level has 1 piece of gold" in words(room)
 
 
 def test_a_message_that_is_never_shown_is_said_to_be_so(room: Maker) -> None:
     screen = opened(room)
-    for when, never in (("lock", True), ("start", False), ("gold", True)):
+    for when, never in ((Moment.LOCK, True), (Moment.START, False), (Moment.GOLD, True)):
         show(screen, MessageRow(when, "", "x"))
         assert ("Message 1 is wrong. Never shown: there is no" in words(room)) is never
         assert ("Choose another moment or place for it" in words(room)) is never
-    show(screen, MessageRow("start", "", "x"), MessageRow("trap", "", "y: z"))
+    show(screen, MessageRow(Moment.START, "", "x"), MessageRow(Moment.TRAP, "", "y: z"))
     assert "Never shown" not in words(room)
     assert "text 'Trap' at 78,81.8 size 9 bad" in drawn(room.app), "also one that is not selected"
 
@@ -1082,10 +1089,10 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
     assert " late in" not in words(room)
     select(room, 1)
     assert "2 s late in the known run (10.0 s): others are read first" in words(room)
-    screen.messages[0].text = "long " * 24
+    screen.edited.rows[0].text = "long " * 24
     assert "7 s late in" in words(room)
     select(room, 2)
-    screen.messages[2].when, screen.messages[2].detail = "after", "3"
+    screen.edited.rows[2].when, screen.edited.rows[2].detail = Moment.AFTER, "3"
     monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(300)))
     assert "Not shown in the known run (7.5 s): others are read then" in words(room)
 
@@ -1093,8 +1100,8 @@ def test_a_message_that_waits_in_the_known_run_says_for_how_long(room: Maker, mo
 def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Maker) -> None:
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
-    show(screen, MessageRow("start", "", text), MessageRow("start", "", "y"))
-    field = screen.fields[TEXT]
+    show(screen, MessageRow(Moment.START, "", text), MessageRow(Moment.START, "", "y"))
+    field = screen.form.fields[Field.TEXT]
     assert isinstance(field, TextArea)
     screen.redraw = True
     room.frames()
@@ -1122,13 +1129,15 @@ def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Ma
 def test_add_lists_all_moments_and_cancel_adds_nothing(room: Maker) -> None:
     screen = opened(room)
     room.choose("Add")
-    assert [getattr(row, "text", "") for row in room.shown(Menu).widgets][:-1] == [name for name, _ in _WHEN.values()]
+    assert [getattr(row, "text", "") for row in room.shown(Menu).widgets][:-1] == [
+        name for name, _ in MOMENT_TEXTS.values()
+    ]
     room.choose("Cancel")
-    assert not screen.messages
+    assert not screen.edited.rows
     room.choose("Add")
     room.choose("After deaths")
     room.type("Wait")
-    assert screen.source == "death 3: Wait"
+    assert screen.edited.source == "death 3: Wait"
 
 
 def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_over(room: Maker) -> None:
@@ -1136,19 +1145,19 @@ def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_o
     room.type("abc")
     assert "Message 1 is wrong. Seconds: from 0.1 to 99.9, or empty" in words(room)
     room.choose("OK")
-    assert screen.focus is screen.fields[TIME]
+    assert screen.focus is screen.form.fields[Field.TIME]
     for letter in "1,5":
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
     room.frames()
     room.choose("OK")
     assert room.draft.says == "start for 1.5 s: on"
-    assert opened(room).messages[0].time == "1.5"
+    assert opened(room).edited.rows[0].time == "1.5"
 
 
 def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(room: Maker) -> None:
     screen = opened(room, "start: a | start: b | start: c | start: d | after 20 s: e")
     for typed, problem in (("2.55", "How many seconds: a number from 0.1 to 99.9"), ("2,5", "")):
-        select(room, 4, DETAIL)
+        select(room, 4, Field.DETAIL)
         room.chord("a", pygame.KMOD_LCTRL)
         for letter in typed:
             pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
@@ -1157,7 +1166,7 @@ def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(r
         select(room, 0)
         room.choose("Test")
         if problem:
-            assert (screen.list.index, screen.focus) == (4, screen.fields[DETAIL])
+            assert (screen.list.index, screen.focus) == (4, screen.form.fields[Field.DETAIL])
             assert f"Message 5 is wrong. {problem}" in words(room)
     play = room.shown(PlaytestScreen).play
     room.press("escape")
@@ -1172,7 +1181,7 @@ def test_a_full_text_says_that_what_is_typed_beyond_is_left_out(room: Maker) -> 
     note = "text 'Full: what is typed beyond is left out'"
     assert note not in drawn(room.app)
     room.type("yz")
-    assert screen.messages[0].text.replace("x", "") == "y"
+    assert screen.edited.rows[0].text.replace("x", "") == "y"
     assert note in drawn(room.app)
     room.press("backspace")
     assert note not in drawn(room.app)
@@ -1186,19 +1195,19 @@ def test_undo_in_a_text_goes_back_word_by_word(room: Maker) -> None:
     texts = []
     for _ in range(6):
         room.chord("z", pygame.KMOD_LCTRL)
-        texts.append(screen.messages[0].text)
+        texts.append(screen.edited.rows[0].text)
     assert texts == ["run and jumps", "run and jum", "run and jump", "run and", "run", ""]
 
 
 def test_undo_and_redo_take_back_everything_on_the_page_one_step_at_a_time(room: Maker) -> None:
     screen = opened(room, "start: a | at 5,5: b | start: c")
-    sources = [screen.source]
+    sources = [screen.edited.source]
 
     def done(change: Callable[[], object]) -> None:
         change()
         room.frames()
-        assert screen.source != sources[-1]
-        sources.append(screen.source)
+        assert screen.edited.source != sources[-1]
+        sources.append(screen.edited.source)
 
     select(room, 1)
     done(partial(room.choose, "Remove"))
@@ -1216,23 +1225,25 @@ def test_undo_and_redo_take_back_everything_on_the_page_one_step_at_a_time(room:
     room.choose("Add")
     room.choose("Exit opens")
     done(partial(room.type, "Now"))
-    select(room, 0, TIME)
+    select(room, 0, Field.TIME)
     done(partial(room.type, "5"))
     select(room, 0)
     done(partial(room.press, "backspace"))
     steps = [*sources[:10], sources[9] + " | switch: ", *sources[10:]]
     for source in reversed(steps[:-1]):
         room.chord("z", pygame.KMOD_LCTRL)
-        assert screen.source == source
+        assert screen.edited.source == source
     room.chord("z", pygame.KMOD_LCTRL)
-    assert screen.source == steps[0]
+    assert screen.edited.source == steps[0]
     for number, source in enumerate(steps[1:]):
         room.chord("z", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT) if number % 2 else room.chord("y", pygame.KMOD_LCTRL)
-        assert screen.source == source
+        assert screen.edited.source == source
     room.chord("z", pygame.KMOD_LCTRL)
     room.type("x")
     room.chord("y", pygame.KMOD_LCTRL)
-    assert screen.source == sources[-2].replace("one two", "one twox"), "a change after undo ends what could be redone"
+    assert screen.edited.source == sources[-2].replace("one two", "one twox"), (
+        "a change after undo ends what could be redone"
+    )
 
 
 def test_undo_of_a_text_keeps_the_focus_and_puts_the_cursor_where_it_changes(room: Maker) -> None:
@@ -1240,20 +1251,22 @@ def test_undo_of_a_text_keeps_the_focus_and_puts_the_cursor_where_it_changes(roo
     select(room, 0)
     room.press("home", *["right"] * 6)
     room.type(" open")
-    assert screen.messages[0].text == "to the open exit"
+    assert screen.edited.rows[0].text == "to the open exit"
     room.chord("z", pygame.KMOD_LCTRL)
-    field = screen.fields[TEXT]
+    field = screen.form.fields[Field.TEXT]
     assert isinstance(field, TextEntry)
     assert (field.text, field.edited.cursor, screen.focus) == ("to the exit", 6, field)
     select(room, 1)
     room.chord("y", pygame.KMOD_LCTRL)
-    assert (screen.list.index, screen.messages[0].text) == (0, "to the open exit"), "the message that changes is shown"
+    assert (screen.list.index, screen.edited.rows[0].text) == (0, "to the open exit"), (
+        "the message that changes is shown"
+    )
 
 
 def test_delete_in_the_list_removes_the_selected_message(room: Maker) -> None:
     screen = opened(room, "start: a | start: b")
     room.press("delete", "delete", "delete")
-    assert (screen.messages, screen.list.index, screen.focus) == ([], 0, room.button("Add"))
+    assert (screen.edited.rows, screen.list.index, screen.focus) == ([], 0, room.button("Add"))
     assert "No messages yet: Add makes one" in words(room)
     room.chord("z", pygame.KMOD_LCTRL)
     assert texts_of(screen) == "b"
@@ -1266,24 +1279,24 @@ def test_words_in_braces_are_put_into_the_text_at_its_cursor_by_mouse_and_keys(r
     screen = opened(room, "start: Press  now")
     select(room, 0)
     room.press("home", *["right"] * 6)
-    x, y, w, h = screen.words.row_area(WORDS.index("jump"))
+    x, y, w, h = screen.form.words.row_area(WORDS.index("jump"))
     room.mouse(x + w / 2, y + h / 2)
-    assert (screen.messages[0].text, screen.focus) == ("Press {jump} now", screen.fields[TEXT])
+    assert (screen.edited.rows[0].text, screen.focus) == ("Press {jump} now", screen.form.fields[Field.TEXT])
     room.press("shift+tab", "tab")
-    field = screen.fields[TEXT]
+    field = screen.form.fields[Field.TEXT]
     assert isinstance(field, TextEntry)
     assert (field.edited.selected, screen.focus) == ("Press {jump} now", field)
     room.press("tab")
-    assert screen.focus is screen.words
+    assert screen.focus is screen.form.words
     room.press("down", "right")
     room.press("return")
-    assert screen.messages[0].text == "Press {jump} now{gold left}", "what was selected by Tab stays"
+    assert screen.edited.rows[0].text == "Press {jump} now{gold left}", "what was selected by Tab stays"
     room.chord("z", pygame.KMOD_LCTRL)
-    assert screen.messages[0].text == "Press {jump} now", "a step of its own"
-    screen.messages[0].text = "x" * (MAX_LETTERS - 5)
+    assert screen.edited.rows[0].text == "Press {jump} now", "a step of its own"
+    screen.edited.rows[0].text = "x" * (MAX_LETTERS - 5)
     screen.enter()
     room.mouse(x + w / 2, y + h / 2)
-    assert screen.messages[0].text == "x" * (MAX_LETTERS - 5), "no half of a word"
+    assert screen.edited.rows[0].text == "x" * (MAX_LETTERS - 5), "no half of a word"
     assert room.app.notice.startswith("{jump} does not fit")
 
 
@@ -1294,26 +1307,32 @@ def test_tab_leads_from_the_list_through_the_fields_to_ok(room: Maker) -> None:
     for _ in screen.widgets:
         way.append(screen.focus)
         room.press("tab")
-    moment, detail, time, text = screen.fields
     of_list, ends = [room.button(name) for name in BUTTONS[:5]], [room.button(name) for name in BUTTONS[5:]]
-    mark = room.button("No")
-    assert way == [screen.list, *of_list, moment, detail, time, mark, text, screen.words, *ends]
+    assert [*screen.form.fields] == [*Field, "words"]
+    assert way == [screen.list, *of_list, *screen.form.fields.values(), *ends]
     assert screen.focus is screen.list
 
 
-ODD = MessageRow("at", "12,5 15x11", "x" * 20 + " {an-unknown-word-that-is-far-too-long}"), MessageRow("trap", "", "y")
+ODD = (
+    MessageRow(Moment.AT, "12,5 15x11", "x" * 20 + " {an-unknown-word-that-is-far-too-long}"),
+    MessageRow(Moment.TRAP, "", "y"),
+)
 
 
 @pytest.mark.parametrize("size", TEXT_SIZES.values())
 def test_nothing_beside_the_fields_is_cut_in_any_size_of_text(doors: Maker, size: int) -> None:
     doors.app.change_settings(text_size=size)
     screen = opened(doors)
-    sound = [MessageRow(when, {"death": "1", "after": "2", "at": "5,5"}.get(when, ""), LONG) for when in _WHEN]
-    empty = [MessageRow(when) for when in _WHEN]
-    lost = [MessageRow("at", "20,20", "Four"), MessageRow("gold", "", "long " * 24)]
-    for rows in (sound, empty, [*ODD, *lost, MessageRow("start", "", "x", "0.01"), MessageRow("at", "99,99", "z")]):
+    sound = [
+        MessageRow(when, {Moment.DEATH: "1", Moment.AFTER: "2", Moment.AT: "5,5"}.get(when, ""), LONG)
+        for when in MOMENT_TEXTS
+    ]
+    empty = [MessageRow(when) for when in MOMENT_TEXTS]
+    lost = [MessageRow(Moment.AT, "20,20", "Four"), MessageRow(Moment.GOLD, "", "long " * 24)]
+    wrong = [MessageRow(Moment.START, "", "x", "0.01"), MessageRow(Moment.AT, "99,99", "z")]
+    for rows in (sound, empty, [*ODD, *lost, *wrong]):
         show(screen, *rows)
-        room_for_empty = screen._refused = rows is empty
+        room_for_empty = screen.checks.refused = rows is empty
         for number in range(len(rows)):
             screen.list.select(number)
             aside = [line for line in drawn(doors.app).splitlines() if re.match(r"text .* at 484,", line)]
@@ -1321,7 +1340,7 @@ def test_nothing_beside_the_fields_is_cut_in_any_size_of_text(doors: Maker, size
             assert not [line for line in aside if "..." in line]
             lowest = max(float(re.findall(r" at 484,([\d.]+)", line)[0]) for line in aside)
             assert lowest < 514, "above the buttons"
-            field = screen.fields[TEXT]
+            field = screen.form.fields[Field.TEXT]
             assert isinstance(field, TextArea)
             assert len(field._rows) <= field._lay_out(doors.app.theme, field.area[0] + PAD, field.area[2] - 20)[1]
 
@@ -1333,7 +1352,7 @@ def test_a_problem_of_a_message_leads_to_it_on_the_page(room: Maker) -> None:
     x, y, w, _ = LAYOUT.findings
     room.mouse(x + w / 3, y + 9)
     screen = room.shown(MessagesScreen)
-    assert (screen.list.index, screen.focus) == (1, screen.fields[TEXT])
+    assert (screen.list.index, screen.focus) == (1, screen.form.fields[Field.TEXT])
 
 
 def test_numbers_in_a_text_are_those_of_the_moment_in_preview_and_play(doors: Maker) -> None:
@@ -1373,8 +1392,8 @@ def test_the_known_run_is_played_in_the_background(doors: Maker, monkeypatch: py
     screen = opened(doors, "trap: One | lock: Two")
     drawn(doors.app)
     assert len(asked) == 1
-    assert screen._known.result is None
-    screen._known.result = screen._known._work(asked[0])
+    assert screen.checks._known_run.result is None
+    screen.checks._known_run.result = screen.checks._known_run._work(asked[0])
     doors.press("down")
     doors.frames(2)
     assert "Replaced after" in words(doors)

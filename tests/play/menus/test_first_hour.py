@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.messages import LevelMessage, parse_messages
+from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
@@ -23,19 +23,9 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.playthrough import LevelPlaythrough
+from ninja_game.runs.advice import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, Advice
 from ninja_game.runs.deaths import SELF
-from ninja_game.runs.messages import (
-    _FADE_TICKS,
-    CLIMB,
-    CLIMBED,
-    FALL_HELP,
-    QUIET_TICKS,
-    START_TICKS,
-    USUAL_TICKS,
-    MessageQueue,
-    in_two,
-    read_ticks,
-)
+from ninja_game.runs.message_queue import _FADE_TICKS, START_TICKS, USUAL_TICKS, MessageQueue, in_two, read_ticks
 from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.kinds import EXIT, SWITCH
@@ -406,7 +396,7 @@ def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDrive
     level = driver.shown(LevelScreen)
     texts = []
     for helps in (True, True, False):
-        level.play.messages.helps = helps
+        level.play.helps = helps
         level.begin()
         driver.keys.script = [2] * 60
         driver.frames(60)
@@ -423,7 +413,7 @@ def test_who_is_still_for_long_reads_once_how_to_try_again_and_nobody_who_moves(
         heard = []
         for helps in (True, False):
             level.retry()
-            level.play.messages.helps = level.play.messages._again = helps
+            level.play.messages._advice = Advice() if helps else None
             level.begin()
             driver.keys.script = [2] * 50 + list(keys)
             for _ in range(50 + len(keys)):
@@ -697,7 +687,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         LevelScreen(driver.app, LevelPlaythrough(driver.player, entry(short_level()))),
         " ".join(["word"] * words),
     )
-    level.play.places._say((text, 99, LevelMessage("at", text, cell=cell_of(*place))))
+    level.play.places._say((text, 99, LevelMessage(Moment.AT, text, cell=cell_of(*place))))
     level.play.places.spot = (10.0, 10.0)
     view = hud_view(level.play)
     assert view.bubble
@@ -741,7 +731,7 @@ WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
 
 def climb(keys: str) -> tuple[list[str], float]:
     """The messages in a well with these keys, and the greatest height, px."""
-    simulation, messages = Simulation(WELL), MessageQueue((), helps=True)
+    simulation, messages = Simulation(WELL), MessageQueue((), advice=Advice())
     seen, floor, height = [], simulation.world.ninja.y, 0.0
     for each in read_inputs([(1, keys)]).keys:
         simulation.step_keys(each)
@@ -764,7 +754,7 @@ def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
 
 
 def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
-    simulation, messages = Simulation(WELL), MessageQueue((), helps=True)
+    simulation, messages = Simulation(WELL), MessageQueue((), advice=Advice())
     for each in read_inputs([(1, SLIP * 2)]).keys:
         simulation.step_keys(each)
         messages.on_tick(simulation.world)
@@ -854,7 +844,7 @@ def test_a_word_without_end_stays_in_the_window_in_the_largest_letters(*, near: 
 def test_a_short_text_beside_a_place_hides_no_exit_no_switch_and_no_enemy(name: str, cell: tuple[int, int]) -> None:
     level = load_levels(str(Path(__file__).parents[3] / "levels" / f"{name}.txt"))[0].level
     things, place = things_at_start(level, Simulation(level).world, [], b""), middle_of(cell)
-    hud, here = Hud(Theme(CLASSIC, Canvas((792, 600)))), LevelMessage("at", "Jump here", cell=cell)
+    hud, here = Hud(Theme(CLASSIC, Canvas((792, 600)))), LevelMessage(Moment.AT, "Jump here", cell=cell)
     box = hud.box(placed_message(here.text, level.tiles, things, here, place, of_start=False))
     assert MUST not in hidden_by(things, *box.area)
     assert away_from(place, *box.area) <= 4.2 * CELL

@@ -7,9 +7,10 @@ from unittest.mock import patch
 import pytest
 
 from ninja_game.editor import packs
+from ninja_game.editor.message_rows import Field
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import PackFinding, pack_finding
-from ninja_game.play.editor.messages import MessagesScreen
+from ninja_game.play.editor.messages_screen import MessagesScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import BACK, FormPanel
 from ninja_game.play.menus import pack_menus
@@ -74,7 +75,8 @@ def test_a_problem_of_a_message_leads_to_the_message(desk: Desk) -> None:
     desk.click(page.list.row_area(row))
     desk.choose("Go there")
     screen = desk.shown(MessagesScreen)
-    assert (screen.list.index, screen.messages[2].text, screen.focus) == (2, "Never", screen.fields[-1])
+    assert (screen.list.index, screen.edited.rows[2].text) == (2, "Never")
+    assert screen.focus is screen.form.fields[Field.TEXT]
     desk.choose("Cancel")
     assert desk.shown(EditorScreen).session.source.path == level
     desk.leave_editor()

@@ -1,0 +1,101 @@
+"""When the messages of a level come in a known run, and those that come too late or too short there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
+from ninja_game.levels.findings import Finding, level_finding
+from ninja_game.runs.message_queue import MessageQueue, in_two, read_ticks
+from ninja_game.sim.grid import Point, cell_of
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.simulation import Simulation
+
+_GLANCE = TICKS_PER_SECOND  # ticks in which nobody reads a message
+
+
+class Appearance(NamedTuple):
+    """The tick in which a message comes in a run, and the ninja's place then, px."""
+
+    due: int  #: the tick in which it comes as the only one, from 0
+    tick: int | None  #: the tick in which it comes beside the other messages; None: they displace it
+    spot: Point
+    cut: int = 0  #: the ticks after which another replaces it before it was read; 0: none does
+
+
+def appearances(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Appearance | None]:
+    """The moment of each message in a run; None if it never comes."""
+    # Only the lengths of the texts matter, in steps of 20 letters: what is typed seldom runs the level again.
+    texts = [str(number).ljust(-(-len(message.text) // 20) * 20) for number, message in enumerate(messages)]
+    numbered = tuple(message._replace(text=text) for message, text in zip(messages, texts, strict=True))
+    together, alone = _first_shown(numbered, level, inputs)
+    comings: list[Appearance | None] = []
+    for message, text in zip(messages, texts, strict=True):
+        wanted, coming = alone.get(text), together.get(text)
+        if wanted is None or coming is None:
+            comings.append(wanted and Appearance(wanted.tick, None, wanted.spot))
+        else:
+            # A level waits at its start: its messages there can be read before the run.
+            need = _GLANCE if message.when == Moment.START else read_ticks(text)
+            is_cut = coming.ticks < min(wanted.ticks, need)
+            comings.append(Appearance(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
+    return comings
+
+
+def late_text(moment: Appearance, ticks: int) -> str:
+    """The reason why a message cannot be read in time in a level's known run of ``ticks``; '' without one."""
+    run = f"in the known run ({ticks / TICKS_PER_SECOND:.1f} s)"
+    if moment.tick is None:
+        return f"not shown {run}: others are read then"
+    late = (moment.tick - moment.due) // TICKS_PER_SECOND
+    if late:
+        return f"{late} s late {run}: others are read first"
+    return f"replaced after {moment.cut / TICKS_PER_SECOND:.1f} s {run}, too soon" if moment.cut else ""
+
+
+def short_text(message: LevelMessage) -> str:
+    """That a message's own time is far too short for its letters; '' if it is not."""
+    letters, need = len(message.text), read_ticks(message.text) // TICKS_PER_SECOND
+    return f"too short to read: {letters} letters need {need} s" if 0 < 3 * message.seconds < need else ""
+
+
+def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
+    """Findings about messages that others displace in the known run, except those after another of their moment."""
+    messages, past = parse_messages(says), set[tuple[object, ...]]()
+    comings = appearances(messages, level, inputs) if inputs else []
+    for number, (message, coming) in enumerate(zip(messages, comings, strict=False)):
+        moment = message.when, message.number, message.cell
+        if coming and coming.tick is None and moment not in past:
+            cell, why = cell_of(*(message.place or coming.spot)), late_text(coming, len(inputs))
+            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)._replace(message=number)
+        past.add(moment)
+
+
+class _Coming(NamedTuple):
+    """The tick in which a text first comes, the ninja's place then, px, and the ticks for which it is shown."""
+
+    tick: int
+    spot: Point
+    ticks: int = 0
+
+
+_Comings = dict[str, _Coming]
+
+
+@lru_cache(maxsize=256)
+def _first_shown(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes) -> tuple[_Comings, _Comings]:
+    """The moments of texts in a run: of all together, and of each as if it were the only one."""
+    run = Simulation(level)
+    together, alone = _Comings(), _Comings()
+    queues = [(MessageQueue([message], run.tiles), alone) for message in messages]
+    queues += [(MessageQueue(some, run.tiles), together) for some in in_two(messages)]
+    for tick, keys in enumerate(inputs):
+        run.step_keys(keys)
+        for queue, comings in queues:
+            queue.on_tick(run.world)
+            coming = comings.get(queue.text) or _Coming(tick, (run.world.ninja.x, run.world.ninja.y))
+            comings[queue.text] = coming._replace(ticks=coming.ticks + 1)
+    return together, alone
