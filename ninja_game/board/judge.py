@@ -95,7 +95,8 @@ def judge(
 
     ``memo``: results of earlier commands on the same files, levels and rules; they save simulations.
     """
-    memo, players, ledger = memo or Memo(), Players(), keeping.ledger
+    memo, players = memo or Memo(), Players()
+    ledger = keeping.ledger
     judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
     valid, invalid = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
     dated = [_dated(run, keeping.dates, keeping.taken) for run in valid]
