@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from enum import IntEnum
 
 from ninja_game.formats.messages import LevelMessage, Moment
 from ninja_game.runs.advice import Advice
@@ -16,7 +17,7 @@ from ninja_game.sim.schema.world_fields import Event, TileMap, World
 
 USUAL_TICKS = 240  # ticks for which a message is shown after its event
 START_TICKS = 480  # the same in play for a single message of the start or the switch
-_FADE_TICKS = 20  # ticks in which a message near a place fades at its end
+FADE_TICKS = 20  # ticks in which a message near a place fades at its end
 _WAITS = {Moment.AT, Moment.AFTER}  # moments that wait for what is shown, and come again if they were not read
 
 _Text = tuple[str, int, LevelMessage | None]
@@ -32,20 +33,36 @@ _MOMENT_OF_EVENT = {
 }
 
 
+class _Column(IntEnum):
+    """The shown text, as the columns of the table of MessageQueue."""
+
+    READ, UNREAD, IMPORTANT = range(3)
+
+
 class MessageQueue:
     """Messages of a level in play, of what happens or of places: the shown one, and those that wait for it.
 
     - ``tiles`` hide a place from the ninja; None: only full ones and doors do.
     - ``advice``: what the game itself says between them; None: nothing.
-    - ``text`` is the present one or "", ``place`` its place, px: it ends when the ninja is far from there.
-    - ``spot`` is where the ninja was when it came, px, ``taken`` where the other queue's text was; others set them.
+    - ``text`` is the present one or "", ``place`` its place, px.
 
-    A message of the start comes at each start until the exit is open, any other once. What just happened, or a place
-    that the ninja just reached, replaces what is shown; a time, or a place where the ninja still is, waits until that
-    was read, for its ``read_ticks``. A place or a time comes again if it was replaced, or the try ended, before it was
-    read. What was read in an earlier try holds nothing back. An important message comes at once; until it was read only
-    another such that just happened replaces it. The text of a place without a time of its own stays while the ninja is
-    in its frame, unless another waits.
+    A message of the start comes at each start until the exit is open, any other once, and meets the shown text:
+
+        what comes                          none, or it was read   unread          unread, important
+        it just happened                    replaces               replaces        queues
+        a place, just reached               replaces               replaces        waits
+        a place not left yet, or a time     replaces [1]           waits           waits
+        important: happened or reached      replaces               replaces        replaces
+        important: not left yet, or a time  replaces               replaces        waits
+
+    - "replaces": it is shown at once. A place or a time that it replaces unread comes again, another text does not.
+    - "queues": it comes after the shown text, or after an important one of its own tick.
+    - "waits": the same is asked in the next tick, if the ninja is there still.
+    - [1]: not in a tick in which something happened.
+
+    A text is read after its ``read_ticks``, in one try or several. A place or a time comes again in the next try if it
+    was not read in this one. The text of a place without a time of its own stays while the ninja is in its frame,
+    unless another one is queued.
     """
 
     def __init__(
@@ -64,14 +81,12 @@ class MessageQueue:
         due = [message for message in self._messages if message.when == Moment.DEATH and message.number == self.deaths]
         starts = [message for message in self._messages if message.when == Moment.START and message not in self._shown]
         self._say(*_in_turn([*due, *starts]))
-        self.spot: Point | None = None
-        self.taken: tuple[float, float, float, float] | None = None
         self._here: set[LevelMessage] = set()
         if self._advice:
             self._advice.at_start()
 
     def _say(self, *texts: _Text) -> None:
-        (self.text, self._left, self.message), *self._next = texts or (_NOTHING,)
+        (self.text, self.ticks_left, self.message), *self._next = texts or (_NOTHING,)
 
     @property
     def _unread(self) -> set[LevelMessage]:
@@ -99,11 +114,6 @@ class MessageQueue:
         """Whether a text of a place or a time has to wait for the present one."""
         return self._read[self.text] < read_ticks(self.text) if self.text else False
 
-    @property
-    def opacity(self) -> float:
-        """Opacity of the present text, 0…1."""
-        return min(1.0, max(0.0, self._left / _FADE_TICKS)) if self.place else 1.0
-
     def say_again(self) -> None:
         """Forget which texts were shown: another run was watched, whose events the player has not passed yet."""
         self._shown.clear()
@@ -111,7 +121,7 @@ class MessageQueue:
 
     def drop_start(self) -> None:
         """Stop the texts of the start: the player has understood the goal, or is far from the start."""
-        starts = [message for message in self._messages if message.when == "start"]
+        starts = [message for message in self._messages if message.when == Moment.START]
         self._shown.update(starts)
         self._next = [line for line in self._next if line[2] not in starts]
 
@@ -125,42 +135,56 @@ class MessageQueue:
     def on_tick(self, world: World, beside: str = "") -> bool:
         """Called after a tick of play; whether the text has changed. ``beside``: what another queue shows."""
         before = self.text
-        self._left -= 1
-        self.add_read(1)
-        if self.message and self.place and not self.message.seconds:
-            if _is_near(world, self.message):
-                self._left = self._left if self._next else max(self._left, _FADE_TICKS)
-            elif not self.is_unread:
-                self._left = min(self._left, _FADE_TICKS)
-        if self._left <= 0:
-            self._say(*self._next)
+        self._pass_tick(world)
         events = world.events[: world.event_count]
         if any(event.kind == EXIT_OPENED for event in events):
             self.drop_start()
-        held = bool(self.is_unread and self.message and self.message.important)
-        here = {message for message in self._messages if self._is_at(world, message)}
-        reached, self._here = here - self._here, here
-        ahead = [message for message in self._messages if message not in self._shown]
-        new = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
-        waits = bool(new) or self.is_unread
-
-        def comes(message: LevelMessage) -> bool:
-            if message in reached:
-                return message.important or not held
-            return not (held if message.important else waits) and (message in here or _is_due(world, message))
-
-        new += list(filter(comes, ahead))
-        self._shown.update(new)
-        if held and not any(message.important for message in new):
-            self._next += _in_turn(new)
-        elif new:
-            self._say_now(*_in_turn(new))
+        self._receive(world, events)
         advice = self._advice and self._advice.on_tick(world, self.text, beside, is_unread=self.is_unread)
         if advice and advice[0]:
             self._say_now((*advice, None))
         elif advice:
             self.text = ""
         return self.text != before
+
+    def _pass_tick(self, world: World) -> None:
+        """Count a tick of the present text; at its end the next one follows."""
+        self.ticks_left -= 1
+        self.add_read(1)
+        if self.message and self.place and not self.message.seconds:
+            if _is_near(world, self.message):
+                self.ticks_left = self.ticks_left if self._next else max(self.ticks_left, FADE_TICKS)
+            elif not self.is_unread:
+                self.ticks_left = min(self.ticks_left, FADE_TICKS)
+        if self.ticks_left <= 0:
+            self._say(*self._next)
+
+    def _receive(self, world: World, events: Sequence[Event]) -> None:
+        """Take what comes in a tick by the table of the class."""
+        here = {message for message in self._messages if self._is_at(world, message)}
+        reached, self._here = here - self._here, here
+        ahead = [message for message in self._messages if message not in self._shown]
+        happened = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
+        shown = self._column(anything_happened=bool(happened))
+
+        def replaces(message: LevelMessage) -> bool:
+            if message in reached:
+                return message.important or shown < _Column.IMPORTANT
+            if message in here or _is_due(world, message):  # a place not left yet, or a time
+                return shown == _Column.READ or (message.important and shown == _Column.UNREAD)
+            return False
+
+        new = [*happened, *filter(replaces, ahead)]
+        self._shown.update(new)
+        if shown == _Column.IMPORTANT and not any(message.important for message in new):
+            self._next += _in_turn(new)  # all of it just happened
+        elif new:
+            self._say_now(*_in_turn(new))
+
+    def _column(self, *, anything_happened: bool) -> _Column:
+        if self.is_unread and self.message and self.message.important:
+            return _Column.IMPORTANT
+        return _Column.UNREAD if self.is_unread or anything_happened else _Column.READ
 
     def _is_at(self, world: World, message: LevelMessage) -> bool:
         """Whether the ninja is in the frame of a message, with no wall between; a place in a wall is always seen."""

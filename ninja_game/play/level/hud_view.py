@@ -14,13 +14,14 @@ from ninja_game.player.playthrough import Navigation
 from ninja_game.player.progress import NO_MEDAL, Mark, next_par
 from ninja_game.runs.advice import FALL_HELP, WHY
 from ninja_game.runs.deaths import SELF
+from ninja_game.runs.message_queue import FADE_TICKS
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.view.hud import EndPanel, HudView
 from ninja_game.view.places import MUST, Things
 
-_FADE_TICKS = 8  # ticks until the panel of an ended run is opaque
+_END_FADE_TICKS = 8  # ticks until the panel of an ended run is opaque
 SHINE_TICKS = 20  # ticks for which light moves over its medal
 _END_ROOM = 36.0  # px around the end of the run that the panel leaves free
 _POINTER_UP = 24.0  # px from a thing up to the middle of its pointer
@@ -72,10 +73,10 @@ def hud_view(play: LevelPlay) -> HudView:
         medal=play.medal,
         stamp=play.stamp,
         shine=1.0 if settings.reduced_motion else (play.after_end + play.fraction - STAMP_TICKS) / SHINE_TICKS,
-        end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / _FADE_TICKS),
+        end_opacity=1.0 if settings.reduced_motion else min(1.0, (play.after_end + play.fraction) / _END_FADE_TICKS),
         ninja=play.ninja_place(),
         softly=not settings.reduced_motion,
-        bubble_opacity=1.0 if settings.reduced_motion else play.places.opacity,
+        bubble_opacity=1.0 if settings.reduced_motion else min(1.0, max(0, play.places.ticks_left) / FADE_TICKS),
     )
 
 

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Iterable
 from enum import Enum
 from random import Random
+from typing import NamedTuple
 
 from ninja_game.formats.messages import arrow_targets, level_text
 from ninja_game.levels.episodes import GAME
@@ -17,12 +18,14 @@ from ninja_game.player.progress import HELPED
 from ninja_game.runs.advice import Advice
 from ninja_game.runs.deaths import cause_of
 from ninja_game.runs.message_queue import MessageQueue, in_two
+from ninja_game.sim.grid import Point
 from ninja_game.sim.inputs import MOVES
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import CRUSHED
 from ninja_game.simulation import Simulation
+from ninja_game.ui.theme import Area
 from ninja_game.view.hud import Hud, PlacedMessage, placed_message
 from ninja_game.view.level_view import LevelView
 from ninja_game.view.places import MAY, Things, things_in
@@ -87,6 +90,13 @@ _PHASE_OF_OUTCOME = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PA
 """The phase in which an attempt with that outcome continues."""
 
 
+class TextSpot(NamedTuple):
+    """Where the ninja was when a text came, and where the other text lay then, px."""
+
+    ninja: Point | None = None  #: None: the text stays in place
+    taken: Area | None = None
+
+
 class LevelPlay:
     """One level of a playthrough, played again and again; its view shows every tick."""
 
@@ -117,6 +127,7 @@ class LevelPlay:
         self.messages = MessageQueue(happens, advice=Advice() if self.helps and not teaches else None)
         self.places = MessageQueue(places, self.attempt.simulation.tiles)  #: their texts come beside the others
         self.queues = self.messages, self.places
+        self.spots: dict[MessageQueue, TextSpot] = {}  #: of the texts that came since the start
         for _ in range(playthrough.deaths):
             self.messages.on_death()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -137,6 +148,7 @@ class LevelPlay:
         self.crushed = False  #: whether the killer crushed the ninja
         for queue in self.queues:
             queue.say_again() if self.playthrough.lead else queue.at_start()
+        self.spots.clear()
         self.notices: list[str] = []  #: sentences about what a pass has won
         self.next_par = self.playthrough.next_par()  #: next medal and its time, while the level waits
         runs = self.playthrough.ghosts()
@@ -154,8 +166,8 @@ class LevelPlay:
         for queue, other in (self.queues, self.queues[::-1]):
             if queue.on_tick(self.attempt.simulation.world, other.text):
                 there = self.placed(other)
-                queue.spot = None if queue.is_start else self.ninja_place()
-                queue.taken = Hud(self.app.theme).box(there).area if there else None
+                taken = Hud(self.app.theme).box(there).area if there else None
+                self.spots[queue] = TextSpot(None if queue.is_start else self.ninja_place(), taken)
                 self.changed = True
 
     def placed(self, queue: MessageQueue) -> PlacedMessage | None:
@@ -165,12 +177,13 @@ class LevelPlay:
         if not text or self.phase in {Phase.DEAD, Phase.PASSED}:
             return None
         words = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
-        layout = self.playthrough.level.tiles, self.things, queue.message, queue.spot
+        spot = self.spots.get(queue, TextSpot())
+        layout = self.playthrough.level.tiles, self.things, queue.message, spot.ninja
         # The text for a player who is stuck stays in place, too.
         placed = placed_message(words, *layout, of_start=queue.is_start or is_advice)
         lines = text.split("\n") if is_advice else []
         moves = tuple(sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in lines)
-        return placed._replace(taken=queue.taken, moves=moves)
+        return placed._replace(taken=spot.taken, moves=moves)
 
     def ninja_place(self) -> tuple[float, float]:
         ninja = self.attempt.simulation.world.ninja

@@ -4,7 +4,6 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
 from typing import Any
 from unittest.mock import patch
 
@@ -36,7 +35,6 @@ from ninja_game.player.playthrough import Playthrough
 from ninja_game.runs.message_queue import MessageQueue, read_ticks
 from ninja_game.runtime import NewestJob
 from ninja_game.search.certificate import verified_run
-from ninja_game.sim.events import EXIT_OPENED, LOCK_OPENED, TRAP_CLOSED
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import EXIT, GOLD, MINE
 from ninja_game.sim.level import Level, ObjectSpec
@@ -592,27 +590,6 @@ def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker)
     assert room.draft == before
 
 
-def test_the_text_of_the_start_stays_in_its_place_while_it_is_shown() -> None:
-    queued = MessageQueue(parse_messages("start: Go"))
-    assert queued.is_start
-    opening = SimpleNamespace(kind=EXIT_OPENED, x=60.0, y=60.0)
-    assert not queued.on_tick(SimpleNamespace(events=[opening], event_count=1))  # type: ignore[arg-type]
-    assert (queued.text, queued.is_start) == ("Go", True), "it may lie where it did"
-    queued.at_start()
-    assert queued.text == ""
-
-
-def test_a_locked_door_and_a_trap_have_their_words() -> None:
-    queued = MessageQueue(parse_messages("lock: The door is open | trap: Shut"))
-    world = SimpleNamespace(events=[SimpleNamespace(kind=LOCK_OPENED, x=60.0, y=60.0)], event_count=1)
-    assert queued.on_tick(world)  # type: ignore[arg-type]
-    assert queued.text == "The door is open"
-    world.events[0].kind = TRAP_CLOSED
-    for _ in range(read_ticks("The door is open")):
-        queued.on_tick(world)  # type: ignore[arg-type]
-    assert queued.text == "Shut"
-
-
 def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Maker, boxes: list[Box]) -> None:
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
@@ -841,7 +818,6 @@ WELCOME = "Welcome to this place: go to the right, and look at what I have built
 def test_a_place_has_its_bubble_beside_the_welcome_and_each_is_drawn_when_it_comes(room: Maker) -> None:
     check_says(room, f"start: {WELCOME} | at 3,22: Wall ahead | after 2 s!: Go on")
     assert read_ticks(WELCOME) == 6 * TICKS_PER_SECOND
-    assert [read_ticks("x" * long) for long in (20, 21)] == [3 * TICKS_PER_SECOND, 4 * TICKS_PER_SECOND]
     room.press("f5")
     play = room.shown(PlaytestScreen).play
     room.frames(40, ms=25)

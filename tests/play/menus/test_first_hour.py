@@ -1,6 +1,5 @@
 """What a new player learns and is offered: texts of levels, causes of death, open levels, runs to race against."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from math import hypot
 from pathlib import Path
@@ -9,13 +8,10 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.formats.ascii.reader import room_level
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.messages import LevelMessage, Moment, parse_messages
-from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.play.level.hud_view import cause_of_death, hud_view
-from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase, things_at_start
+from ninja_game.play.level.level_play import DEATH_PAUSE, STUCK_AFTER, Phase, TextSpot, things_at_start
 from ninja_game.play.level.screen import LevelScreen, PausePanel, play_level
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import Menu
@@ -23,14 +19,13 @@ from ninja_game.play.menus.browser import Browser
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.episode_playthrough import EpisodePlaythrough
 from ninja_game.player.playthrough import LevelPlaythrough
-from ninja_game.runs.advice import CLIMB, CLIMBED, FALL_HELP, QUIET_TICKS, Advice
+from ninja_game.runs.advice import CLIMB, FALL_HELP, QUIET_TICKS, Advice
 from ninja_game.runs.deaths import SELF
-from ninja_game.runs.message_queue import _FADE_TICKS, START_TICKS, USUAL_TICKS, MessageQueue, in_two, read_ticks
-from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN, LOCK_OPENED, TRAP_CLOSED
+from ninja_game.runs.message_queue import START_TICKS, MessageQueue
 from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.kinds import EXIT, SWITCH
 from ninja_game.sim.level import ROWS
-from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
+from ninja_game.sim.rules import CELL
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import Canvas
 from ninja_game.ui.theme import CLASSIC, Theme
@@ -150,180 +145,6 @@ def test_goal_is_not_shown_again_in_a_level_that_was_passed(driver: MenuDriver) 
     assert not level.playthrough.messages()
 
 
-def test_each_text_has_its_moment(driver: MenuDriver) -> None:
-    says = parse_messages("start: go | switch: open | gold: gold | death 2: wait")
-    messages = MessageQueue(says)
-    simulation = Simulation(short_level(gold=1))
-    seen = [messages.text]
-    for _ in range(60 + USUAL_TICKS):
-        simulation.step_keys(2)
-        if messages.on_tick(simulation.world):
-            seen.append(messages.text)
-    assert seen in (["go", "gold", "open"], ["go", "open", "gold"])
-    for _ in range(START_TICKS + USUAL_TICKS):
-        messages.on_tick(simulation.world)
-    assert messages.text == ""
-    messages.at_start()
-    assert messages.text == "", "the switch was touched: the start needs no words any more"
-    messages.on_death()
-    messages.on_death()
-    messages.at_start()
-    assert messages.text == "wait"
-
-
-def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> None:
-    messages = MessageQueue(parse_messages("start: go | gold: gold"))
-    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
-    seen = []
-    for tick in range(START_TICKS + USUAL_TICKS + 1):
-        simulation.step_keys(2 if tick < 8 else 0)
-        if messages.on_tick(simulation.world):
-            seen.append((tick, messages.text))
-    assert [text for _, text in seen] == ["gold", ""]
-    messages.at_start()
-    assert messages.text == "go"
-    messages = MessageQueue(parse_messages("start: go | death 1: again"))
-    messages.on_death()
-    messages.at_start()
-    assert messages.text == "again"
-    simulation.reset()
-    assert [messages.text for _ in range(START_TICKS) if messages.on_tick(simulation.world)] == ["go", ""]
-
-
-def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
-    says = "start: one | start: two | switch: three | switch: four"
-    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    messages = MessageQueue(parse_messages(says))
-    heard = [(0, messages.text)]
-    simulation.step_keys(0)
-    ticks = range(1, START_TICKS + 9)
-    heard += [(tick, messages.text) for tick in ticks if messages.on_tick(simulation.world)]
-    assert heard == [(0, "one"), (START_TICKS // 2, "two"), (START_TICKS, "")]
-    messages.at_start()
-    simulation.world.events[0].kind, simulation.world.event_count = EXIT_OPENED, 1
-    assert messages.on_tick(simulation.world)
-    simulation.world.event_count = 0
-    heard = [(tick, messages.text) for tick in range(START_TICKS) if messages.on_tick(simulation.world)]
-    assert messages.text == ""
-    assert [text for _, text in heard] == ["four", ""], "and no more of the start, which is understood"
-    quick = MessageQueue(parse_messages("switch: one | switch: two | gold: three"))
-    texts = []
-    for kind in (EXIT_OPENED, GOLD_TAKEN, None):
-        simulation.world.event_count = int(kind is not None)
-        simulation.world.events[0].kind = kind or 0
-        texts += [quick.text for _ in range(1 if kind else 2 * START_TICKS) if quick.on_tick(simulation.world)]
-    assert texts == ["one", "three", "two", ""], "what has just happened comes at once, and takes nothing away"
-
-
-def test_a_place_has_its_bubble_beside_what_just_happened_and_neither_waits() -> None:
-    long = "Gold adds two seconds to the clock; " * 3
-    says = parse_messages(f"start: go | gold: {long} | lock: open | at 3,22: Here | trap: shut")
-    queues = [MessageQueue(messages) for messages in in_two(says)]
-    world = Simulation(room_level(["#@..#"], ())).world
-    heard: list[list[tuple[int, str]]] = [[], []]
-    for tick in range(2 * START_TICKS):
-        world.event_count = int(tick in (0, 40, 50))
-        world.events[0].kind = {0: GOLD_TAKEN, 40: TRAP_CLOSED}.get(tick, LOCK_OPENED)
-        world.ninja.x = 84.0 if 60 < tick < 300 else 400.0
-        world.ninja.y = 540.0
-        for queue, texts in zip(queues, heard, strict=True):
-            if queue.on_tick(world):
-                texts.append((tick, queue.text))
-    assert read_ticks(long.strip()) == 8 * TICKS_PER_SECOND
-    assert heard[0][:3] == [(0, long.strip()), (40, "shut"), (50, "open")], "the newest, at once"
-    assert heard[1] == [(61, "Here"), (299 + _FADE_TICKS, "")], "as long as the ninja is there"
-
-
-def places_heard(says: str, cell_in_tick: Callable[[int], float], ticks: int) -> list[tuple[int, str]]:
-    """The texts of places, and when they come, while the ninja stands in such columns of row 22."""
-    queued, world = MessageQueue(parse_messages(says)), Simulation(room_level(["#@..#"], ())).world
-    heard = []
-    for tick in range(ticks):
-        world.ninja.x, world.ninja.y = 24 * cell_in_tick(tick) + 12, 540.0
-        heard += [(tick, queued.text)] if queued.on_tick(world) else []
-    return heard
-
-
-def test_who_runs_past_two_places_sees_both_and_the_first_again_on_the_way_back() -> None:
-    """At three cells in ten ticks; both need three seconds to be read."""
-    heard = places_heard("at 5,22: One | at 11,22: Two", lambda tick: min(tick, 80 - tick) * 0.3, 80)
-    assert heard == [(9, "One"), (29, "Two"), (55, "One")], "at the edges of their frames"
-
-
-@pytest.mark.parametrize("marks, texts", [("", ["One", "Two", "One", ""]), ("!", ["One", "Two", ""])])
-def test_of_two_places_with_the_ninja_the_one_reached_last_comes_first_unless_one_is_important(
-    marks: str, texts: list[str]
-) -> None:
-    heard = places_heard(f"at 5,22{marks}: One | at 7,22: Two", lambda tick: 4 if tick < 20 else 6, 1000)
-    read = read_ticks("One")
-    assert heard[:2] == [(0, "One"), (read if marks else 20, "Two")]
-    assert [text for _, text in heard][: len(texts) - 1] == texts[:-1]
-    if not marks:
-        assert heard[2] == (20 + read, "One"), "it was not read, and the ninja is still there"
-
-
-def test_two_texts_of_one_place_come_one_after_the_other() -> None:
-    heard = places_heard("at 3,22: One | at 3,22: Two", lambda _: 3, 600)
-    assert heard == [(0, "One"), (USUAL_TICKS, "Two")]
-
-
-def test_what_a_death_kept_from_being_said_is_said_when_it_happens_again() -> None:
-    queued, world = MessageQueue(parse_messages("gold: one | gold: two")), Simulation(short_level()).world
-    world.event_count, world.events[0].kind = 1, GOLD_TAKEN
-    queued.on_tick(world)
-    assert queued.text == "one"
-    queued.on_death()
-    queued.at_start()
-    assert queued.text == ""
-    assert queued.on_tick(world)
-    assert queued.text == "two"
-
-
-def test_a_time_that_was_replaced_before_it_was_read_comes_again() -> None:
-    queued = MessageQueue(parse_messages("after 1 s: Time | gold: Gold | trap: Shut"))
-    run, seen, need = Simulation(room_level(["#@..#"], ())), [], read_ticks("Gold")
-    for tick in range(1, 5 * USUAL_TICKS):
-        run.step_keys(0)
-        run.world.event_count = int(tick in (1, 150))
-        run.world.events[0].kind = GOLD_TAKEN if tick == 1 else TRAP_CLOSED
-        seen += [(tick, queued.text)] if queued.on_tick(run.world) else []
-    assert seen[:4] == [(1, "Gold"), (1 + need, "Time"), (150, "Shut"), (150 + need, "Time")]
-
-
-def test_what_just_happened_waits_until_an_important_message_was_read() -> None:
-    told = MessageQueue(parse_messages("start: Go on | lock!: One | gold: Gold | trap!: Shut"))
-    world = Simulation(room_level(["#@..#"], ())).world
-    seen, kinds = [], {0: LOCK_OPENED, 20: GOLD_TAKEN, 40: TRAP_CLOSED}
-    for tick in range(9 * USUAL_TICKS):
-        world.event_count, world.events[0].kind = int(tick in kinds), kinds.get(tick, 0)
-        seen += [(tick, told.text)] if told.on_tick(world) else []
-    assert seen[:2] == [(0, "One"), (40, "Shut")], "another important one replaces it, no gold"
-    assert [text for _, text in seen[2:]] == ["Gold", ""]
-
-
-def test_all_gold_and_a_number_of_gold_have_their_moments() -> None:
-    level = parse_level_string("0" * 713 + "|5^100,566!0^200,566!0^300,566!0^400,566!11^700,64,700,264")
-    run, came = Simulation(level), dict[str, int]()
-    queues = [MessageQueue([message]) for message in parse_messages("all gold: All | gold 2: Two | gold: One")]
-    for _ in range(200):
-        run.step_keys(2)
-        came |= {queue.text: run.world.gold for queue in queues if queue.on_tick(run.world)}
-    assert came == {"One": 1, "Two": 2, "All": 3}
-
-
-def test_text_comes_after_its_seconds_once_and_stays_as_long_as_it_says() -> None:
-    messages = MessageQueue(parse_messages("after 2 s for 3 s: slide"))
-    simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!11^400,564,700,564"))
-    for times in (1, 0):
-        heard = []
-        for tick in range(1, 10 * TICKS_PER_SECOND):
-            simulation.step_keys(0)
-            heard += [(tick, messages.text)] if messages.on_tick(simulation.world) else []
-        assert heard == [(2 * TICKS_PER_SECOND, "slide"), (5 * TICKS_PER_SECOND, "")] * times
-        simulation.reset()
-        messages.at_start()
-
-
 def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver: MenuDriver) -> None:
     driver.press("return")
     level, hud = driver.shown(LevelScreen), Hud(driver.app.theme)
@@ -332,62 +153,10 @@ def test_text_at_a_place_does_not_lie_over_the_ninja_that_has_come_there(driver:
     play.places.text, play.places.message, play.things = here.text, here, ()
     x, y, w, h = hud.box(hud_view(play).bubble or PlacedMessage("", (), (), None, covers=False)).area
     for spot in ((x + 4, y + 4), (x + w - 4, y + h - 4), (x + w / 2, y + h / 2)):
-        play.places.spot = spot
+        play.spots[play.places] = TextSpot(spot)
         placed = hud_view(play).bubble
         assert placed
         assert away_from(spot, *hud.box(placed).area) > 10
-
-
-def test_text_at_a_place_is_said_there_once() -> None:
-    simulation = Simulation(short_level())
-    column = int(simulation.world.ninja.x // 24)
-    row = int(simulation.world.ninja.y // 24)
-    near, far = (
-        MessageQueue(parse_messages(f"at {column},{row}: here")),
-        MessageQueue(parse_messages(f"at {column + 5},{row}: there")),
-    )
-    simulation.step_keys(0)
-    assert near.on_tick(simulation.world)
-    assert not far.on_tick(simulation.world)
-    assert (near.text, far.text) == ("here", "")
-
-
-@pytest.mark.parametrize(
-    "source, stays, ticks",
-    [
-        ("", 0, read_ticks("Here") + _FADE_TICKS), ("", 500, 500 + _FADE_TICKS),
-        (" for 1.5 s", 0, 60), (" for 1.5 s", 500, 60),
-    ],
-)  # fmt: skip
-def test_text_at_a_place_fades_when_the_ninja_has_left_and_it_was_read(source: str, stays: int, ticks: int) -> None:
-    queued = MessageQueue(parse_messages(f"at 3,22{source}: Here"))
-    ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
-    ninja.x, ninja.y = 84.0, 540.0
-    assert queued.on_tick(world)
-    solid: list[float] = []
-    while queued.text:
-        ninja.x = 84.0 + 61 * (len(solid) >= stays)
-        solid.append(queued.opacity)
-        queued.on_tick(world)
-    assert len(solid) == pytest.approx(ticks, abs=2)
-    assert solid[:-_FADE_TICKS] == [1.0] * (len(solid) - _FADE_TICKS)
-    assert solid[-_FADE_TICKS:] == sorted(solid[-_FADE_TICKS:], reverse=True)
-    assert solid[-1] < 0.1
-
-
-def test_a_place_has_a_frame_of_its_size_and_a_wall_hides_it() -> None:
-    room = Simulation(room_level(["#........#", "##########", "#@.......#"], ()))
-    ninja = room.world.ninja
-    middle, floor, above = 24 * 6 + 12.0, ninja.y, ninja.y - 48
-    for source, x, y, seen in (
-        ("at 6,3", middle, above, False), ("at 6,3", middle, floor, True), ("at 6,3", middle - 50, floor, True),
-        ("at 6,3 3x1", middle - 50, floor, False), ("at 6,3 3x1", middle + 30, floor, True),
-        ("at 6,2", middle + 30, above, True), ("at 6,3", middle - 70, floor, False),
-        ("at 6,3 7x1", middle - 70, floor, True),
-    ):  # fmt: skip
-        queued = MessageQueue(parse_messages(f"{source}: Here"), room.tiles)
-        ninja.x, ninja.y = x, y
-        assert queued.on_tick(room.world) is seen, (source, x, y)
 
 
 def test_every_death_says_what_helps_until_the_level_is_passed(driver: MenuDriver) -> None:
@@ -661,7 +430,7 @@ def test_text_in_play_lies_over_rock_near_the_ninja_or_else_in_the_border(driver
     (text, tiles, things, _, covers, *_), far = hud_view(level.play).message or ("", (), (), None, False), []
     assert covers, "the text of the start stays where it was"
     level.play.messages._say(("Another one", 99, None))
-    level.play.messages.spot = (40, 500)
+    level.play.spots[level.play.messages] = TextSpot((40, 500))
     assert hud_view(level.play).message == PlacedMessage("Another one", tiles, things, (40, 500), covers=False)
     for about in ((40.0, 440.0), (750.0, 440.0)):
         lines, left, y, w, high, *_ = hud.box(PlacedMessage(text, tiles, things, about, covers=False))
@@ -688,7 +457,7 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         " ".join(["word"] * words),
     )
     level.play.places._say((text, 99, LevelMessage(Moment.AT, text, cell=cell_of(*place))))
-    level.play.places.spot = (10.0, 10.0)
+    level.play.spots[level.play.places] = TextSpot((10.0, 10.0))
     view = hud_view(level.play)
     assert view.bubble
     assert view.bubble[3:] == (place, False, (place[0] - 60, place[1] - 60, 120, 120), None, ())
@@ -707,65 +476,6 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
         there = driver.app.canvas.point(*place)
         assert surface.get_at(there)[:3] == driver.app.theme.palette.accent[:3]
         assert any(rect.collidepoint(there) for rect in covered), "so it is taken away again"
-
-
-def test_a_place_is_said_once_and_again_only_if_the_try_ended_before_it_was_read() -> None:
-    queued = MessageQueue(parse_messages("at 3,22: Here"))
-    assert queued.place is None
-    simulation = Simulation(room_level(["#@..#"], ()))
-    simulation.world.ninja.x, simulation.world.ninja.y = 84.0, 540.0
-    came = []
-    for ticks in (20, 70, 50, 20):
-        came.append([queued.text for _ in range(ticks) if queued.on_tick(simulation.world)])
-        assert queued.place == ((84.0, 540.0) if came[-1] else None)
-        queued.on_death()
-        queued.at_start()
-        assert (queued.text, queued.place) == ("", None)
-    assert came == [["Here"], ["Here"], ["Here"], []], "the third try was long enough"
-    queued.say_again()
-    assert queued.on_tick(simulation.world)
-
-
-WELL = room_level(["#...#"] * 10 + ["#@..#"], ())
-
-
-def climb(keys: str) -> tuple[list[str], float]:
-    """The messages in a well with these keys, and the greatest height, px."""
-    simulation, messages = Simulation(WELL), MessageQueue((), advice=Advice())
-    seen, floor, height = [], simulation.world.ninja.y, 0.0
-    for each in read_inputs([(1, keys)]).keys:
-        simulation.step_keys(each)
-        height = max(height, floor - simulation.world.ninja.y)
-        if messages.on_tick(simulation.world) and messages.text:
-            seen.append(messages.text)
-    return seen, height
-
-
-SLIP = ".*40 R*12 RJ*20 R*20 L*60 "
-
-
-def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
-    right, left = (CLIMB % names for names in (("{right}", "{left}"), ("{left}", "{right}")))
-    assert climb(SLIP)[0] == []
-    assert climb(SLIP * 2)[0] == [right]
-    assert climb(SLIP * 2 + ".*500 " + SLIP * 2)[0] == [right, right], "it comes back"
-    assert climb(2 * ".*40 L*12 LJ*20 L*20 R*60 ")[0] == [left]
-    assert climb(".*40 R*12 RJ*20 R*20 L*60 " + ".*40 RJ*30 .*40 " * 6)[0] == []
-
-
-def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:
-    simulation, messages = Simulation(WELL), MessageQueue((), advice=Advice())
-    for each in read_inputs([(1, SLIP * 2)]).keys:
-        simulation.step_keys(each)
-        messages.on_tick(simulation.world)
-    assert messages.text
-    floor = simulation.world.ninja.y
-    for each in read_inputs([(1, "R*12 RJ*20 R*18 " + "RJ*20 R*8 " * 5)]).keys:
-        simulation.step_keys(each)
-        messages.on_tick(simulation.world)
-        if not messages.text:
-            break
-    assert floor - simulation.world.ninja.y == pytest.approx(CLIMBED, abs=CELL), "not after so long, but there"
 
 
 def test_keys_of_the_help_bear_the_letters_that_its_words_name(driver: MenuDriver) -> None:
@@ -814,15 +524,6 @@ def test_last_level_of_an_episode_left_out_leads_to_the_next_episode(driver: Men
             last.go_on()
     assert driver.app.notice == "That was the last episode"
     assert driver.top() is not last
-
-
-def test_climbing_as_the_hint_says_works_and_away_from_the_wall_first_does_not() -> None:
-    _, once = climb(".*40 R*12 RJ*20 R*20")
-    assert climb(".*40 R*12 RJ*20 R*18 " + "RJ*20 R*8 " * 6)[1] > once + 100, (
-        "towards the wall, jump held at each touch"
-    )
-    assert climb(".*40 R*12 RJ*20 R*18 " + "L*3 LJ*20 L*30 ")[1] <= once, "away first: no jump at all"
-    assert climb(".*40 R*12 RJ*20 R*18 J*20 L*20")[1] > once + 10, "jump alone"
 
 
 @pytest.mark.parametrize("near", [False, True])
