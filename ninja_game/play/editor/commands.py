@@ -440,9 +440,10 @@ class EditorCommands(DocumentCommands):
         def put(says: str) -> None:
             tools.history.change(replace(tools.draft, says=says))
 
-        entry, inputs, test = self._entry(), lambda: self.session.certifying_inputs, self.playtest_message
+        entry = self._entry()
         mood = entry.mood if entry else Mood()
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, test, mood, inputs, at))
+        screen = partial(MessagesScreen, self.app, tools.draft, here, put, self.playtest_message, mood)
+        self.app.push(screen(lambda: self.session.certifying_inputs, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""
