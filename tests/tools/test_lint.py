@@ -67,7 +67,7 @@ def test_a_hidden_decision_is_seen(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["a, b, c = f(x), g(x), h(x)", "a, b, c = x, 1, f(x)", "a, b, c = x, y, x == y"])
-def test_three_values_that_come_about_in_unlike_ways_are_seen(text: str) -> None:
+def test_three_values_that_are_made_in_unlike_ways_are_seen(text: str) -> None:
     assert faults(lint.hidden_decisions, "ninja_game/a.py", text)
     like = "a, b = f(x), g(x)\na, b, c = x, y.z, x + 1\na, b, c = x.f(), y.f(), z.f()"
     assert not faults(lint.hidden_decisions, "ninja_game/a.py", like)
