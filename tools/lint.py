@@ -160,12 +160,23 @@ def hides_a_decision(node: ast.AST) -> bool:
     return False
 
 
+def mixes_ways(node: ast.Assign) -> bool:
+    """Whether an assignment gives three or more names values in unlike ways: by different calls, by a condition..."""
+    plain = ast.Name | ast.Attribute | ast.Constant | ast.Subscript | ast.UnaryOp | ast.BinOp
+    parts = getattr(node.value, "elts", []) if isinstance(node.targets[0], ast.Tuple) else []
+    ways = {type(part).__name__ for part in parts if not isinstance(part, ast.Call | plain)}
+    ways |= {ast.unparse(part.func).rpartition(".")[2] for part in parts if isinstance(part, ast.Call)}
+    return len(parts) >= 3 and len(ways) + any(isinstance(part, plain) for part in parts) > 1
+
+
 def hidden_decisions(sources: Sources) -> Iterator[str]:
     """No f-string in an f-string, no text times a truth value, no conditional in another but as its ``else``, once."""
     for file, text in sources.items():
         for node in ast.walk(parsed(text)):
             if isinstance(node, ast.expr) and hides_a_decision(node):
                 yield f"{file}:{node.lineno}: a decision is hidden in this expression"
+            elif isinstance(node, ast.Assign) and mixes_ways(node):
+                yield f"{file}:{node.lineno}: three names get values in unlike ways: give them a line each"
 
 
 def forbidden_imports(sources: Sources) -> Iterator[str]:
@@ -217,14 +228,8 @@ def main() -> int:
     everything = {path.relative_to(ROOT).as_posix(): path.read_text("utf-8") for path in paths}
     package = {file: text for file, text in everything.items() if file.startswith("ninja_game/")}
     named = {file: text for file, text in package.items() if not re.match(PAGE, file)}
-    faults = [
-        *two_meanings(named),
-        *like_names(named),
-        *hiding_names(named),
-        *silent_fields(named),
-        *hidden_decisions(package),
-    ]
-    faults += [*forbidden_imports(everything), *circles(), *idle_skips(everything)]
+    faults = [*two_meanings(named), *like_names(named), *hiding_names(named), *silent_fields(named)]
+    faults += [*hidden_decisions(package), *forbidden_imports(everything), *circles(), *idle_skips(everything)]
     sys.stdout.writelines(f"{fault}\n" for fault in faults)
     return int(bool(faults))
 

@@ -77,7 +77,8 @@ class CompiledWorlds(Worlds):
     name: MemoryName = "compiled"
 
     def __init__(self, compiled: Compile, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
-        self.levels, self.count, self.box = tuple(levels), count, box
+        self.levels = tuple(levels)
+        self.count, self.box = count, box
         self._compiled = compiled
         self._step, self._observe = compiled(step_world), compiled(observe_object)
         tables = [object_table(level) for level in self.levels]
@@ -143,10 +144,10 @@ class CompiledWorlds(Worlds):
         ticks, width = len(keys), MAX_EVENTS if events else 0
         widths = (len(TRACED_FLOATS), len(TRACED_INTS), 2 * len(slot_array), len(slot_array), len(slot_array), width)
         kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8, np.uint8)
-        record = TraceArrays(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
+        record = TraceArrays(*(np.zeros(ticks * size, kind) for size, kind in zip(widths, kinds, strict=True)))
         kernel, level = self._compiled(trace_world), self._played()[index]
         for first, last in self._slices(ticks):
-            here = [part[first * wide : last * wide] for part, wide in zip(record, widths, strict=True)]
+            here = [part[first * size : last * size] for part, size in zip(record, widths, strict=True)]
             kernel(self.maps, level, self.worlds, index, keys[first:last], slot_array, *here)
         return record
 

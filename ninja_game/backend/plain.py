@@ -80,7 +80,8 @@ class PlainWorlds(Worlds):
     name: MemoryName = "plain"
 
     def __init__(self, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
-        self.levels, self.count, self.box = tuple(levels), count, box
+        self.levels = tuple(levels)
+        self.count, self.box = count, box
         self._shown: Any = None
         loaded = [load_plain(level, box) for level in self.levels]
         self.maps = [tiles for tiles, _ in loaded]

@@ -46,7 +46,7 @@ __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 Indices = NDArray[np.intp]  # indices of worlds or levels
 
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
-"""Worlds: by number, a slice of numbers, or one truth value per world; None: all of them."""
+"""Worlds: by number, a slice of numbers, or one truth value per world; None for all of them."""
 
 OBJECT_FIELDS = {kind.name: tuple(member.name for member in fields_of(kind.fields)) for kind in KINDS}
 """The fields of ``Batch.objects`` that a kind has, by its name; the other fields hold data of other kinds."""

@@ -50,7 +50,7 @@ def whole_number(name: str, number: object, least: int = 1, most: int = 2**63 - 
 
 
 def thread_count(threads: int | None) -> int:
-    """The number of threads; None: one per core."""
+    """The number of threads, by default one per core."""
     return cores() if threads is None else whole_number("threads", threads)
 
 

@@ -181,8 +181,8 @@ def read_rules(path: Path) -> BoardRules:
 def _category(table: Any, place: str) -> Category:
     """A category from its table. Raises FormatError."""
     if not isinstance(table, dict) or not {"name", "rank"} <= set(table) <= set(_KEYS):
-        found = ", ".join(map(str, table))[:60] if isinstance(table, dict) else ascii(table)[:60]
-        raise FormatError("not the keys of a category", place, found=found, expected="name, rank; also when, episodes")
+        text = ", ".join(map(str, table))[:60] if isinstance(table, dict) else ascii(table)[:60]
+        raise FormatError("not the keys of a category", place, found=text, expected="name, rank; also when, episodes")
     for key, value in table.items():
         if not isinstance(value, _KEYS[key]):
             raise FormatError(f"{key!r} is of the wrong type", place, expected=_KEYS[key].__name__)

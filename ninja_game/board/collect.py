@@ -71,7 +71,7 @@ class Submission:
 
 
 def _parsed(text: str) -> tuple[Replay, int]:
-    """A replay, and ``claimed`` as of Sent. Raises NinjaGameError."""
+    """A replay, and ``claimed`` as in Sent. Raises NinjaGameError."""
     try:
         return parse_replay(text), -1
     except InputsAfterError as error:
@@ -125,8 +125,8 @@ class RunFolder:
                 # Without a file name no path in the file leads to another one.
                 parsed, claimed = _parsed(text)
                 whole = self._whole(parsed)
-                kept = whole is parsed and claimed < 0
-                return [Submission(Chunk(name, text=text if kept else write_replay(whole)), whole, claimed)]
+                is_as_sent = whole is parsed and claimed < 0
+                return [Submission(Chunk(name, text=text if is_as_sent else write_replay(whole)), whole, claimed)]
             if is_episode(text):
                 runs = [self._whole(run) for run in parse_episode(text)]
                 text = write_episode(runs)

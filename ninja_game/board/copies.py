@@ -211,7 +211,8 @@ def edit_distance(ours: bytes, theirs: bytes) -> int:
     ticks_with: dict[int, int] = defaultdict(int)
     for tick, keys in enumerate(ours):
         ticks_with[keys] |= 1 << tick
-    more, less, distance = every, 0, len(ours)
+    more, less = every, 0
+    distance = len(ours)
     for keys in theirs:
         same = ticks_with[keys]
         diagonal = (((same & more) + more) ^ more) | same | less
@@ -293,7 +294,8 @@ class _Compared:
         self._memo = memo
         self._key = values_digest([program(), level])
         self._runs: list[Run] = []
-        self._courses, self._known, self._earlier = Courses(MAX_COMPARED), 0, 0
+        self._courses = Courses(MAX_COMPARED)
+        self._known = self._earlier = 0
         self._last: tuple[RunKey, Course] | None = None
 
     def _key_of(self, run: Run) -> str:

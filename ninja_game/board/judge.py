@@ -71,43 +71,48 @@ class JudgedFile(NamedTuple):
     rows: list[Judged]  #: the file's results
 
 
+class Keeping(NamedTuple):
+    """How a board is kept: what its keeper has recorded, and decides now."""
+
+    ledger: Ledger = NO_LEDGER
+    dates: Dates | None = None  #: ``added`` of a Run, by the ledger; without it runs go by the names of their files
+    taken: Dates | None = None  #: ``taken`` of a Run, by the ledger
+    #: Writes decisions on these runs, of these files, into the ledger
+    decide: Callable[[Sequence[Run], Collection[str]], object] | None = None
+    confirm: Collection[str] = ()  #: files whose runs wait no longer
+    unknown: str = PLAYED  #: as in BoardRules, unless the keeper has decided
+
+
 def judge(
     folder: Path,
     shown: PublishedLevels,
+    keeping: Keeping = Keeping(),  # noqa: B008 - it is frozen
     *,
-    dates: Dates | None = None,
-    taken: Dates | None = None,
     jobs: int | None = None,
     memo: Memo | None = None,
-    ledger: Ledger = NO_LEDGER,
-    decide: Callable[[Sequence[Run], Collection[str]], object] | None = None,
-    confirm: Collection[str] = (),
-    unknown: str = PLAYED,
 ) -> ValidatedRuns:
     """Simulate every run below a folder again, on the board's levels. Raises OSError.
 
-    ``dates``, ``taken``: of the board's ``ledger``, as ``added`` and ``taken`` of Run; without it runs go by the names
-    of their files. ``memo``: results of earlier commands on the same files, levels and rules; they save simulations.
-    ``decide``: writes decisions on these runs, of these files, into the ledger. ``confirm``: files whose runs wait no
-    longer. ``unknown``: the ladder of runs that do not say how they were made, unless the keeper has decided.
+    ``memo``: results of earlier commands on the same files, levels and rules; they save simulations.
     """
     memo, players = memo or Memo(), Players()
+    ledger = keeping.ledger
     judging = _Judging(RunFolder(folder, {key: entry.named.level for key, entry in shown.entries.items()}), shown, memo)
-    counts, rejected = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
-    runs = [_dated(run, dates, taken) for run in counts]
-    if decide:
-        decide(runs, {run.file for run in runs} | {item.file for item in rejected})
+    valid, invalid = _parted(judging.run(file, row) for file in judging.files(jobs) for row in file.rows)
+    dated = [_dated(run, keeping.dates, keeping.taken) for run in valid]
+    if keeping.decide:
+        keeping.decide(dated, {run.file for run in dated} | {item.file for item in invalid})
     owners = ledger.owners
-    runs, impossible = _parted(_possible(run, ledger, unknown) for run in runs)
-    runs = sorted(_first_again(runs, owners), key=lambda run: run.order)
-    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(runs, players))
+    possible, impossible = _parted(_possible(run, ledger, keeping.unknown) for run in dated)
+    in_order = sorted(_first_again(possible, owners), key=lambda run: run.order)
+    credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(in_order, players))
     unique, copies = without_copies(credited, memo, owners)
-    unique = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
-    counted = tuple(_of_senders(unique, ledger, confirm))
-    named = (_named(item, players) for item in rejected + impossible)
+    recorded = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
+    counted = tuple(_of_senders(recorded, ledger, keeping.confirm))
+    named = (_named(item, players) for item in invalid + impossible)
     others = sorted([*named, *moderated, *copies], key=lambda item: (item.file, item.record))
-    refused, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
-    return ValidatedRuns(counted, refused, repeated, players.alike, _episodes(credited, counted, shown))
+    rejected, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
+    return ValidatedRuns(counted, rejected, repeated, players.alike, _episodes(credited, counted, shown))
 
 
 def _parted(items: Iterable[Run | RejectedRun]) -> tuple[list[Run], list[RejectedRun]]:
@@ -135,10 +140,10 @@ def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | RejectedRun:
 
 def _first_again(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
     """The runs with their first dates: a run that was withdrawn, or is in another file now, keeps its player's date."""
-    known = {(run.level, run.way, run.added) for run in runs}
+    ways = {(run.level, run.way, run.added) for run in runs}
     for run in runs:
         owner = owners.get(way := (run.level, run.way))
-        if owner and (*way, owner["added"]) not in known and folded(owner["player"]) == folded(run.player):
+        if owner and (*way, owner["added"]) not in ways and folded(owner["player"]) == folded(run.player):
             yield replace(run, added=owner["added"], taken=owner.get("taken", ""), again=True)
         else:
             yield run
@@ -223,13 +228,13 @@ class _Judging:
         entry = self._memo.recall(name)
         entry = entry if isinstance(entry, dict) and entry.get("context") == self._context else {}
         digest, rows = str(entry.get("digest")), entry.get("rows", [])
-        known = _known(rows, self._shown)
-        if known and stamp and stamp == entry.get("stamp"):
-            return JudgedFile(name, digest, stamp, [], known)
+        results = _known(rows, self._shown)
+        if results and stamp and stamp == entry.get("stamp"):
+            return JudgedFile(name, digest, stamp, [], results)
         file = SubmittedFile(name, problem=why) if why else self._folder.file(name)
-        if known and digest == file.digest:
+        if results and digest == file.digest:
             self._note(name, stamp, digest, rows)
-            return JudgedFile(name, digest, stamp, [], known)
+            return JudgedFile(name, digest, stamp, [], results)
         return JudgedFile(name, file.digest, stamp, self._folder.recordings(file), [])
 
     def _note(self, name: str, stamp: list[int], digest: str, rows: list[dict[str, Any]]) -> None:
@@ -264,8 +269,8 @@ def _known(rows: Any, shown: PublishedLevels) -> list[Judged]:
     with suppress(TypeError, ValueError):
         recordings = [Judged(**row) for row in rows]
         for row in recordings:
-            known = row.kind in REJECTED_KINDS if row.kind else row.level in shown.entries
-            if not known or not all(map(isinstance, vars(row).values(), _TYPES)):
+            is_valid = row.kind in REJECTED_KINDS if row.kind else row.level in shown.entries
+            if not is_valid or not all(map(isinstance, vars(row).values(), _TYPES)):
                 return []
             parse_provenance(row.made)
         return recordings

@@ -29,7 +29,7 @@ def program() -> str:
 
 
 class Memo:
-    """A cache of plain values by key; ``save`` drops entries that were neither recalled nor noted.
+    """A cache of plain values by key. ``save`` drops entries that were neither recalled nor noted.
 
     ``path``: of its file, None: nothing is kept; a missing or broken one is empty. ``again``: recall nothing from it.
     """
@@ -63,6 +63,6 @@ class Memo:
         if self.path and self._now != self._before:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps(self._now))
-            kept = sorted(self.path.parent.glob("*.json"), key=lambda path: path.stat().st_mtime, reverse=True)
-            for old in kept[MAX_MEMOS:]:
+            memos = sorted(self.path.parent.glob("*.json"), key=lambda path: path.stat().st_mtime, reverse=True)
+            for old in memos[MAX_MEMOS:]:
                 old.unlink(missing_ok=True)

@@ -45,8 +45,8 @@ def folded(player: str) -> str:
     True
     """
     folds = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", player).casefold())
-    seen = "".join(letter for letter in folds if unicodedata.category(letter) != "Cf")
-    return player_named(INVISIBLE.sub("", seen))
+    visible = "".join(letter for letter in folds if unicodedata.category(letter) != "Cf")
+    return player_named(INVISIBLE.sub("", visible))
 
 
 @lru_cache(4096)

@@ -64,7 +64,7 @@ class Standing:
 
 
 class Ranking:
-    """All rankings for the pages of a folder. ``name``, ``unknown``: as of BoardRules."""
+    """All rankings for the pages of a folder. ``name``, ``unknown``: as in BoardRules."""
 
     def __init__(
         self,

@@ -100,7 +100,7 @@ class Ledger(NamedTuple):
 
     @property
     def owners(self) -> RunRows:
-        """The first run of every way through a level, by level and way; ``near`` and ``confirmed`` as of a Run.
+        """The first run of every way through a level, by level and way; ``near`` and ``confirmed`` as in a Run.
 
         Runs that the keeper has disowned are left out: their real player may still send them.
         """

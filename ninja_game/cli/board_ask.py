@@ -166,7 +166,7 @@ def _level(text: str, entries: Sequence[Entry]) -> Entry:
 
 
 def _category(ranking: Ranking, name: str | None) -> Category:
-    """The category with this name, else the only one whose name contains it; None: the first."""
+    """The category with this name, else the only one whose name contains it; the first one for None."""
     if name is None:
         return ranking.categories[0]
     words = name.casefold()

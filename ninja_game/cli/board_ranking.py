@@ -77,7 +77,7 @@ def ranking_of(
     ``same``: missing ``levels`` and ``rules``, and without decisions ``ledger``, are those of the folder's last board.
     """
     from ninja_game.board.categories import BoardRules, read_rules
-    from ninja_game.board.judge import judge
+    from ninja_game.board.judge import Keeping, judge
     from ninja_game.board.ranking import Ranking
     from ninja_game.board.report import dates_of, read_board, read_dates
     from ninja_game.board.runs import NO_LEDGER
@@ -105,10 +105,8 @@ def ranking_of(
     dates_by_file = read_dates(dates, now) if dates else {}
     added, taken = dates_of(before, now, dates_by_file) if ledger else (None, None)
     deciding = partial(decide, before, now) if decide else None
-    judged = judge(
-        folder, shown, dates=added, taken=taken, jobs=jobs, memo=memo, ledger=before, decide=deciding, confirm=confirm,
-        unknown=stated.unknown,
-    )  # fmt: skip
+    keeping = Keeping(before, added, taken, deciding, confirm, stated.unknown)
+    judged = judge(folder, shown, keeping, jobs=jobs, memo=memo)
     present = {run.file for run in judged.runs} | {run.file for run in judged.rejected + judged.again}
     memo.save()
     if unknown := dates_by_file.keys() - present:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.options import LevelPath, level_option, load_level_option, record_option
+from ninja_game.cli.terminal import table_console
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.sim.kinds import KIND_NAMES
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ninja_game.formats.load import NamedLevel, Recording
-
-PIPE_WIDTH = 160
 
 
 @click.command()
@@ -47,13 +45,10 @@ def info(
       ninja-game info userlevels.txt --json
       ninja-game info demo.txt --level level.txt
     """
-    from rich.console import Console
-
     from ninja_game.formats.load import load_levels
     from ninja_game.runs.recording_reader import Unreadable, recordings_in
 
-    # A pipe has no width; a table truncated to 80 columns is useless there.
-    console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
+    console = table_console()
     play_level = load_level_option(level_path)
     runs = [run for run in recordings_in(files, play_level) if not isinstance(run, Unreadable)]
     levels = list(map(_level_of, runs)) if play_level else [level for file in files for level in load_levels(file)]

@@ -219,7 +219,8 @@ def search(
     )
     named = partial(improved_replay, recording=recording, command="search")
     save = saver(output, [Path(recording.file)], named) if output else None
-    level, inputs, measure = recording.level, recording.inputs, maximise or minimise
+    measure = maximise or minimise
+    level, inputs = recording.level, recording.inputs
     task = SpanTask(level, inputs, first, last, goal, measure, least=bool(minimise), rest=rest, body=recording.body)
     with progress_line() as shown:
         report = _SpanReport(task, seconds, save, shown.say)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.terminal import use_dummy_video
+from ninja_game.cli.terminal import table_console, use_dummy_video
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import REPLAY_SUFFIX
 from ninja_game.formats.run_time import seconds_text
@@ -19,8 +18,6 @@ if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.runs.splits import RunSplits, SplitRow
     from ninja_game.sim.level import Level
-
-_WIDTH = 160  # width of a table in a pipe, characters
 
 Table = tuple["list[RunSplits]", "list[SplitRow]"]  # the runs of a level, the best first, and the rows of their splits
 
@@ -46,13 +43,12 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
 
 
 def show(tables: Sequence[Table]) -> None:
-    from rich.console import Console
     from rich.table import Table as RichTable
 
     from ninja_game.runs.deaths import ending_text
     from ninja_game.runs.splits import sum_of_best
 
-    console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else _WIDTH)
+    console = table_console()
     for runs, rows in tables:
         best = runs[0]
         name, *others = titles([run.recording for run in runs])

@@ -8,11 +8,16 @@ import re
 import sys
 from contextlib import suppress
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 import click
 
 from ninja_game.files.shown_text import shown_character, shown_text
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+PIPE_WIDTH = 160  # width of a table in a pipe, characters
 
 _COLOURS = r"\n|\t|\x1b\[[0-9;]*m"
 _OWN_CONTROLS = {
@@ -56,6 +61,14 @@ def guard_terminal() -> None:
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
         if stream and stream.isatty():
             setattr(sys, name, Terminal(stream, ours))
+
+
+def table_console() -> Console:
+    """A console for tables with any text. A pipe has no width, and a table cut to 80 characters is useless there."""
+    from rich.console import Console
+
+    width = None if sys.stdout.isatty() else PIPE_WIDTH
+    return Console(highlight=False, markup=False, emoji=False, width=width)
 
 
 def use_dummy_video() -> None:

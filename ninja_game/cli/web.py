@@ -141,7 +141,7 @@ class _BoardGroup(click.Group):
     "--dates",
     metavar="FILE.csv",
     type=OLD_FILE,
-    help="Rows FILE,DATE: since when runs are known, as of an older board. Needs --json, which keeps them.",
+    help="Rows FILE,DATE: since when runs are known, as in an older board. Needs --json, which keeps them.",
 )
 @rules_option
 @click.option("--again", is_flag=True, help="Simulate every run, and write every page, also those known from before.")

@@ -142,11 +142,13 @@ def lead_in(level: Level, inputs: bytes, tick: int) -> bytes:
 
     It ends a second before, or where the ninja last stood if that is at most two seconds earlier.
     """
-    run, stood, alive = Simulation(level), 0, 0
+    run = Simulation(level)
+    stood = alive = 0
     for number, keys in enumerate(inputs[: max(0, tick - TICKS)], 1):
         run.step_keys(keys)
         if run.outcome == "running":
-            stood, alive = stood if run.ninja.in_air else number, number
+            stood = stood if run.ninja.in_air else number
+            alive = number
     return inputs[: stood if alive - stood <= 2 * TICKS else alive]
 
 
@@ -154,7 +156,7 @@ TOUCH = RADIUS + GOLD_RADIUS  # px between the ninja and gold or a switch that i
 
 
 def place_before(draft: Draft, place: Point, size: Cell = FRAME_SIZE, *, touch: bool = False) -> Point | None:
-    """Where the playtest of a message near a place begins, px; None: at the level's start.
+    """Where the playtest of a message near a place begins, px; None if that is at the level's start.
 
     It is a cell beside the frame, or nearer if there is no room; between walls it is below or above. A ninja that
     presses nothing lives there. Cells with a floor and on the side of the start are preferred. Instead of a cell in the

@@ -153,7 +153,8 @@ def _certify(path: Path, obstacles: Obstacles, *, say: Say, seconds: float, jobs
     }
     planned = {Path(file).stem: seconds * len(sought) for file, sought in goals.items()}
     names = [f"{shown_text(levels[file].name)} ({' and '.join(sought)})" for file, sought in goals.items()]
-    begun, done, share = dict[str, float](), 0, 0.0
+    begun: dict[str, float] = {}
+    done, share = 0, 0.0
 
     def report(name: str, _: Progress) -> None:
         """Estimate the time left from the pace so far, as if the first seconds had gone as planned."""

@@ -141,7 +141,8 @@ class Certifier:
     """Certifies the level under edit. ``certification``: the newest one."""
 
     def __init__(self, solver: Solver) -> None:
-        self.seconds, self.solver, self.certification = SECONDS, solver, Certification()
+        self.seconds, self.solver = SECONDS, solver
+        self.certification = Certification()
 
     @property
     def text(self) -> str:
@@ -233,7 +234,7 @@ class Certifier:
             certification.stopping.set()
 
     def leave(self, then: Callable[[Certification], object] | None) -> None:
-        """The level is closed. ``then``: called when its search, which continues, has ended; None: cancel it."""
+        """The level is closed. ``then``: called when its search, which goes on, has ended. None cancels it."""
         self.certification.then = then
         if then is None:
             self.stop()

@@ -107,7 +107,7 @@ class Drawn(Stroke):
         self.move()
 
 
-class Drawing(Drawn):
+class Painting(Drawn):
     """Tiles, or many objects, by hand; or they are erased."""
 
     def __init__(self, bench: Bench, *, erases: bool) -> None:
@@ -128,7 +128,7 @@ class Drawing(Drawn):
         self._cell = bench.cell
 
 
-class Shaping(Drawn):
+class Stretching(Drawn):
     """One of SHAPES from the press to the pointer."""
 
     def __init__(self, bench: Bench, shape: Tool) -> None:
@@ -137,7 +137,8 @@ class Shaping(Drawn):
         self._bend = 0.0
 
     def move(self) -> None:
-        bench, began, ends = self.bench, self.bench.history.began, (self.start, self.bench.pointer)
+        bench, ends = self.bench, (self.start, self.bench.pointer)
+        began = bench.history.began
         after = bench.brush.with_shape(began, self.shape, *ends, bend=self._bend, slopes=bench.sets_slopes)
         bench.history.change(after)
 

@@ -59,7 +59,7 @@ class EditorTools(Bench):
     @property
     def frame_size(self) -> tuple[int, int] | None:
         """Columns and rows of the shape or the frame that is being drawn."""
-        if isinstance(self.stroke, strokes.Shaping | strokes.Choosing):
+        if isinstance(self.stroke, strokes.Stretching | strokes.Choosing):
             return stamps.area_between(cell_of(*self.stroke.start), self.cell)[2:]
         return None
 
@@ -115,13 +115,13 @@ class EditorTools(Bench):
         self.selection = stamps.Selection()
         tool = self.effective_tool
         if erase:
-            self._begin(strokes.Drawing(self, erases=True))
+            self._begin(strokes.Painting(self, erases=True))
         elif tool == Tool.FILL:
             self._fill()
         elif tool in SHAPES:
-            self._begin(strokes.Shaping(self, tool))
+            self._begin(strokes.Stretching(self, tool))
         elif not self.brush.draws_objects or self.brush.spec.kind in (GOLD, MINE):
-            self._begin(strokes.Drawing(self, erases=False))
+            self._begin(strokes.Painting(self, erases=False))
         else:
             self._begin(strokes.Dropping(self))
 
@@ -170,7 +170,7 @@ class EditorTools(Bench):
 
     def bend(self, steps: int) -> bool:
         """Bend the line that is being drawn to its right; whether it is busy."""
-        if isinstance(self.stroke, strokes.Shaping) and self.stroke.shape == Tool.LINE:
+        if isinstance(self.stroke, strokes.Stretching) and self.stroke.shape == Tool.LINE:
             self.stroke.bend(BEND_STEP * steps)
         return self.is_busy
 

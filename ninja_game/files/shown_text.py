@@ -83,7 +83,7 @@ def unused_name(name: str, taken: Container[str]) -> str:
 
 
 def file_stem(text: str, otherwise: str = "") -> str:
-    """The text as the first part of a file's name: small letters, digits, ``_ . -``; ``otherwise`` if none is left.
+    """The text as the first part of a file's name: small letters, digits, ``_ . -``, or ``otherwise`` if none is left.
 
     >>> file_stem("Über - the hill?"), file_stem("../..", "replay"), file_stem("AUX.1")
     ('über-the-hill', 'replay', '_aux.1')

@@ -105,7 +105,7 @@ def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
 def export_path(folder: Path, title: str, suffix: str, first: int = 0) -> Path:
     """A free path for a picture, a film or a replay that the game writes: ``exports/title-1.gif`` and so on.
 
-    Characters that a file name cannot hold become "-". ``first``: as of ``free_path``. Raises OSError without a folder.
+    Characters that a file name cannot hold become "-". ``first``: as in ``free_path``. Raises OSError without a folder.
     """
     exports = folder / EXPORTS
     exports.mkdir(parents=True, exist_ok=True)

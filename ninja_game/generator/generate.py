@@ -46,7 +46,7 @@ class Generated:
 
 @dataclass(frozen=True)
 class Effort:
-    """Amounts of work; ``tries`` as in ``difficulty``."""
+    """Amounts of work. ``tries``: as in ``difficulty``."""
 
     find: int = 1_500_000  #: work of the solver on one attempt
     shorten: int = 1_000_000  #: work on the attempt after its hazards were changed
@@ -108,7 +108,7 @@ def plan_of(seed: int | str, rng: Random) -> str:
 
 
 def _is_near(measured: float, wanted: int, times: int = 1) -> bool:
-    """Whether a measured difficulty is close enough to the wanted one; ``times`` widens the tolerance."""
+    """Whether a measured difficulty is close enough to the wanted one, within ``times`` the usual tolerance."""
     return abs(measured - wanted) <= times * max(0.5, 0.15 * wanted)
 
 

@@ -75,10 +75,10 @@ def hoard(scene: Scene, rng: Random) -> list[Point]:
     (left, y), (right, _) = (
         middle_of(cell) for cell in sorted({scene.board.vault_floor[0], scene.board.vault_floor[-1]})
     )
-    count, high = rng.choice((0, 0, 5, 6, 7)), rng.choice((0, 0, 34))
-    wide = min((right - left) / 2, 12.0 * count)
-    row = [((left + right) / 2 + wide * (2 * k / (count - 1) - 1), k / (count - 1)) for k in range(count)]
-    return [point for x, t in row if _fits(scene, point := (x, y + 4 - high * 4 * t * (1 - t)))]
+    count, arch = rng.choice((0, 0, 5, 6, 7)), rng.choice((0, 0, 34))
+    half_width = min((right - left) / 2, 12.0 * count)
+    row = [((left + right) / 2 + half_width * (2 * k / (count - 1) - 1), k / (count - 1)) for k in range(count)]
+    return [point for x, t in row if _fits(scene, point := (x, y + 4 - arch * 4 * t * (1 - t)))]
 
 
 def gold_rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:

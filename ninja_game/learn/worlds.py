@@ -338,7 +338,7 @@ class EnvWorlds:
     def reset(
         self, worlds: WorldChoice = None, *, seeds: Sequence[int] | None = None, levels: ChosenLevels | None = None
     ) -> None:
-        """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: the levels to play; None: drawn."""
+        """Begin new episodes. ``seeds``: new seeds of these worlds. ``levels``: to be played; by default drawn."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if seeds is not None:
             self._levels.seed(numbers, seeds)

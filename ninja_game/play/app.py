@@ -47,7 +47,7 @@ FALLBACK_RATE = 60  # pictures per second where the display does not say its rat
 
 NOTICE = 12.5  # size of the letters of a notice
 _IN_BORDER = 10.0  # the same in the border below a level
-NOTICE_WIDE = 764.0  # longest line of a notice, px
+NOTICE_WIDTH = 764.0  # longest line of a notice, px
 NOTICE_LINES = 5  # most lines of a notice
 NOTICE_MS = 4000
 SWITCH_S = 0.0005
@@ -305,15 +305,15 @@ class App:
 
     def _draw_notice(self, theme: Theme) -> pygame.Rect:
         left, right = self.top.notice_room
-        most = min(NOTICE_WIDE, right - left - 28)
+        most = min(NOTICE_WIDTH, right - left - 28)
         # In the border: no text covers a level.
         middle, size, margin, height = (left + right) / 2, _IN_BORDER, 1.0, 20.0
         lines = wrapped(theme, self.notice, most, size)
         if len(lines) > 1 or not (self.top.plays or self.top.small_notices):
             size, margin, height = NOTICE, 4.0, 1.5 * NOTICE * theme.scales[0]
             lines = wrapped(theme, self.notice, most, size)[:NOTICE_LINES]
-        foot = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_high
-        y = max(1.0, foot - height * len(lines) - 2 * margin)
+        lower_edge = theme.canvas.logical((0, theme.canvas.stage.bottom))[1] - self.top.foot_height
+        y = max(1.0, lower_edge - height * len(lines) - 2 * margin)
         width = min(most, max(theme.width(line, size) for line in lines)) + 28
         rect = theme.window(self.surface, middle - width / 2, y, width, height * len(lines) + 2 * margin)
         for k, line in enumerate(lines):
@@ -332,7 +332,7 @@ class App:
     ) -> Path | None:
         """Write a file into the player's exports, and show where; its path, or None if that failed.
 
-        ``content``: text, bytes, or a function that writes to the path. ``first``: as of ``export_path``.
+        ``content``: text, bytes, or a function that writes to the path. ``first``: as in ``export_path``.
         ``over``: an earlier export, which is replaced.
         """
         try:
@@ -367,7 +367,7 @@ def build_app(
     """The app with the player's settings; a notice shows what is wrong with the player's files.
 
     ``folder``: the player's folder, by default the usual one. ``controls``: reads keys and pads. ``audio_output``:
-    instead of the sound device. ``tas_editor``, ``window``: as of ``App``.
+    instead of the sound device. ``tas_editor``, ``window``: as in ``App``.
 
     Raises NinjaGameError where there is no display.
     """

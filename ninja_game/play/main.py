@@ -42,7 +42,7 @@ def main(
     ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on, or a link
     to a level or to replays; by default the main menu. ``replay_path``: watch the recordings of a file or link;
     ``level_path`` is then the level of those without one. ``frames``: end after this many pictures. ``screenshot``:
-    write the last picture to this PNG file. ``tas_editor``, ``window``: as of ``App``.
+    write the last picture to this PNG file. ``tas_editor``, ``window``: as in ``App``.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
     """
@@ -60,7 +60,7 @@ def run_app(
     tas_editor: TasEditorOpener | None = None,
     window: Window | None = None,
 ) -> int:
-    """Open a window with a first screen and run until it ends; the exit code. The rest is as of ``main``.
+    """Open a window with a first screen and run until it ends; the exit code. The rest is as in ``main``.
 
     Raises NinjaGameError where there is no display.
     """
@@ -139,7 +139,7 @@ def _replays(path: str, level: Level | None) -> Callable[[App], Screen]:
 def watch_screen(texts: Sequence[str], colours: Sequence[int] = ()) -> Callable[[App], Screen]:
     """A function that makes the viewer, over the main menu: the first replay is watched, others run as ghosts.
 
-    ``colours``: as of ReplayScreen. Raises NinjaGameError for a replay that cannot be read.
+    ``colours``: as in ReplayScreen. Raises NinjaGameError for a replay that cannot be read.
     """
     return _watch(recordings_in_links(texts), colours, over_menu=True)
 

@@ -163,11 +163,11 @@ class MainMenu(MenuScreen):
         self.draw_widgets(surface)
         palette = self.app.theme.palette
         hint = self.focus.hint if self.focus else ""
-        foot = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
+        bar = theme.canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
         theme.text(
             surface, hint, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40
         )
-        written = [rect.inflate(4, 4), foot]
+        written = [rect.inflate(4, 4), bar]
         if self.attract.view is not None:
             for rect in written:
                 self.attract.view.also_covered(rect)

@@ -99,19 +99,19 @@ class MenuScreen(Screen):
             return True
         if event.raw.type == pygame.TEXTINPUT and event.raw.text.strip():
             self.focus_on(self.search)
-        taken = self.focus is not None and self.focus.text_event(event.raw)
+        is_used = self.focus is not None and self.focus.text_event(event.raw)
         self._typed.follow(event.raw)
         if event.raw.type == pygame.KEYDOWN:
             self._typed.end()
-            if taken:
+            if is_used:
                 self._typed.begin(event.raw, scancode_of(event.raw), first=_FIRST_REPEAT_MS, every=_TEXT_REPEAT_MS)
-        if taken:
+        if is_used:
             self.widgets_changed()
         if isinstance(self.focus, TextEntry) and self.focus.edited.was_full:
             self.focus.edited.was_full = False
             if self.says_full:
                 self.app.notify(f"At most {self.focus.edited.longest} letters")
-        return taken
+        return is_used
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type in MOUSE:
@@ -329,10 +329,10 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), height, side = self._box, self.row_height, self.side
-        width, high = w - 2 * side, 0.8 * height
+        (x, y, w, _), row_height, side = self._box, self.row_height, self.side
+        width, height = w - 2 * side, 0.8 * row_height
         return [
-            Button((x + side, y + self.head + height * k, width, high), text, action, hint=hint, size=self.size)
+            Button((x + side, y + self.head + row_height * k, width, height), text, action, hint=hint, size=self.size)
             for k, (text, action, hint) in enumerate(self.rows())
         ]
 

@@ -32,7 +32,7 @@ class BaseScreen:
     plays = False  #: whether a level is played in it, over which nothing is to be written
     hides_game = False  #: whether it shows that nobody plays, and no notice
     small_notices = False  #: whether notices of one line are as high as a border
-    foot_high = 1.0  #: px at the foot that notices leave free
+    foot_height = 1.0  #: px at the foot that notices leave free
 
     def __init__(self, app: Host) -> None:
         self.app = app
@@ -56,7 +56,7 @@ class BaseScreen:
 
     @property
     def music(self) -> str:
-        """The name of the music while this screen is on top (ui/audio/music.py); "": the music that plays already."""
+        """The name of the music while this screen is on top (ui/audio/music.py); "" if the music that plays goes on."""
         return ""
 
     def enter(self) -> None:

@@ -46,15 +46,15 @@ class Thumbnails:
     def work(self) -> bool:
         """Make some of the requested pictures; whether there are new ones."""
         start = perf_counter()
-        made = False
-        while self._wanted and (not made or perf_counter() - start < BUDGET):
+        has_drawn = False
+        while self._wanted and (not has_drawn or perf_counter() - start < BUDGET):
             key, entry = self._wanted.popitem()
             picture = thumbnail(entry.named.level, self.app.palette_in(entry.mood), key[1])
             if len(self._made) >= MAX_KEPT:
                 self._made.clear()
             self._made[key] = picture
-            made = True
-        return made
+            has_drawn = True
+        return has_drawn
 
     def draw(self, surface: pygame.Surface, entry: Entry, x: float, y: float, width: float) -> None:
         canvas, palette = self.app.canvas, self.app.theme.palette

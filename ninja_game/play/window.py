@@ -95,7 +95,7 @@ class Window:
 def open_at_once(size: tuple[int, int] | None, *, wide: bool = False) -> Window:
     """The window with its first picture: the game's name, while the rest of the program loads; opened once.
 
-    ``size``, ``wide``: as of ``Window``. Raises NinjaGameError where there is no display.
+    ``size``, ``wide``: as in ``Window``. Raises NinjaGameError where there is no display.
     """
     settings = read_usable_settings(user_folder() / SETTINGS)
     try:

@@ -216,10 +216,10 @@ class WorkspaceScreen(MenuScreen):
     def follow_parts(self) -> None:
         """Take over the parts' present widgets; one that a part wants gets the focus."""
         self.widgets = list(self.build())
-        wanted = next((part.wants for part in self.parts if part.wants is not None), None)
+        asking = next((part.wants for part in self.parts if part.wants is not None), None)
         for part in self.parts:
             part.wants = None
-        focus = wanted or (self.focus if self.focus in self.widgets else None)
+        focus = asking or (self.focus if self.focus in self.widgets else None)
         if focus is not self.focus:
             self.focus = focus
             self.widgets_changed()
@@ -357,7 +357,7 @@ class DocumentCommands:
         self.document = document
 
     def own_path(self) -> Path | None:
-        """The path for saving without a question; None: ask."""
+        """The path for saving without a question; None if the player must be asked."""
         raise NotImplementedError
 
     def save_as(self, then: Action = nothing) -> None:

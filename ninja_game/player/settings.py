@@ -233,6 +233,7 @@ def _put_aside(path: Path, why: str) -> str:
 
 
 def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
+    """The settings of a document, and messages about values that cannot be used."""
     values: dict[str, Any] = {}
     wrong: dict[str, tuple[Any, str]] = {}  # by place: what was found, and what is expected
     for name, spec in SPECS.items():

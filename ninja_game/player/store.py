@@ -159,6 +159,7 @@ class Store:
                 self._save_pending()
 
     def _save_pending(self) -> tuple[Sequence[str], str]:
+        """Make the changes that wait; the notices of the last one, and why it could not be made, or ""."""
         notices: Sequence[str] = []
         problem = ""
         while self._pending:

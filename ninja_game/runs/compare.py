@@ -99,7 +99,7 @@ def each_second(places: tuple[Lead, ...]) -> list[Lead]:
 
 
 def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[np.intp]:
-    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place; -1: never.
+    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place, or -1.
 
     Dynamic time warping: of all ways to step forwards through both runs, the one with the least sum of distances.
     Raises ArgumentError for more than MAX_PAIRS pairs of ticks, or MAX_TOGETHER ticks.
@@ -115,7 +115,8 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
     costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
     before[0] = 0.0
     for diagonal in range(n + m - 1):
-        start, end, shift = max(0, diagonal - m + 1), min(n, diagonal + 1), m - 1 - diagonal
+        start, end = max(0, diagonal - m + 1), min(n, diagonal + 1)
+        shift = m - 1 - diagonal
         here, there = slice(start, end), slice(start + shift, end + shift)
         both, left, right = before[start:end], last[start:end], last[start + 1 : end + 1]
         one = np.minimum(left, right)

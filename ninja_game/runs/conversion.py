@@ -96,7 +96,7 @@ def by_player(recording: Recording, player: str) -> Recording:
 
 
 def on_level(recording: Recording, level: Level | None = None) -> Recording:
-    """The inputs of a recording on a level; None: on its own level in its present state.
+    """The inputs of a recording on a level, by default on its own level in its present state.
 
     The same recording if this is the level that it was made on, else one without claims.
     """

@@ -38,7 +38,7 @@ _LANES = {kinds.THWUMP, kinds.FLOOR_GUARD}  # hazards that strike along a line
 
 
 class Design(NamedTuple):
-    """The counts of a level. Distances in px, shares from 0 to 1; None: too few things to count.
+    """The counts of a level. Distances in px, shares from 0 to 1; None where there are too few things to count.
 
     ``hazard_distance``: from a hazard to the run, the median. ``bait``: the share of the gold near a possible place of
     a hazard, or in the sight of a gun. ``gold_evenness``, ``mine_evenness``: mean distance to the nearest other piece
@@ -173,12 +173,13 @@ def evenness(points: Points, room: float) -> float | None:
 
 def most_bays(level: Level) -> int:
     """The count of the commonest block of 6 x 5 cells, without overlaps; nearly full or empty ones do not count."""
-    wide, high = BAY
+    columns, rows = BAY
     where: dict[tuple[int, ...], list[tuple[int, int]]] = {}
-    for i in range(COLUMNS - wide + 1):
-        for j in range(ROWS - high + 1):
-            block = tuple(tile for k in range(i, i + wide) for tile in level.tiles[k * ROWS + j : k * ROWS + j + high])
-            if len(set(block)) > 2 and 6 <= sum(tile > 0 for tile in block) <= wide * high - 6:
+    for i in range(COLUMNS - columns + 1):
+        for j in range(ROWS - rows + 1):
+            starts = range(i * ROWS + j, (i + columns) * ROWS + j, ROWS)
+            block = tuple(tile for start in starts for tile in level.tiles[start : start + rows])
+            if len(set(block)) > 2 and 6 <= sum(tile > 0 for tile in block) <= columns * rows - 6:
                 where.setdefault(block, []).append((i, j))
     return max((len(_apart(cells)) for cells in where.values()), default=0)
 

@@ -65,7 +65,8 @@ class MessageQueue:
     def __init__(
         self, messages: Sequence[LevelMessage], tiles: TileMap | None = None, advice: Advice | None = None
     ) -> None:
-        self._messages, self._tiles, self._advice = messages, tiles or TileMap(), advice
+        self._messages, self._advice = messages, advice
+        self._tiles = tiles or TileMap()
         self._shown: set[LevelMessage] = set()
         self._read = Counter[str]()  # ticks for which the texts were shown
         self.deaths = 0

@@ -90,7 +90,7 @@ def has_gold_out_of_reach(level: Level, says: str = "") -> bool:
 def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
     """The pars of every level file with a sound certificate to the exit, one after another.
 
-    Valid entries of the pack's table are not measured again. ``tries``: as of ``difficulty``, 0 for no difficulty.
+    Valid entries of the pack's table are not measured again. ``tries``: as in ``difficulty``, 0 for no difficulty.
     Raises as ``read_pack_certificate`` does.
     """
     known_pars = pack.read_pars()

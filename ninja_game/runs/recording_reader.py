@@ -51,6 +51,7 @@ def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadab
 
 
 def _texts_of(path: Path, *, named: bool) -> Iterator[tuple[str, str, bool] | Unreadable]:
+    """As ``texts_in``, of one path."""
     try:
         yield from ((file, text, named) for file, text in texts_of(path, may_be_link=named))
     except NinjaGameError as error:

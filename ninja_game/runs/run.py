@@ -108,7 +108,7 @@ def run_level(
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
     ``inputs``: bytes, a list or an array, for each tick the sum of its ``Input`` flags (``Recording.playback`` gives
-    them). ``memory``: as of ``Simulation``. ``digest``: also compute the digest at the end, as replays have it.
+    them). ``memory``: as in ``Simulation``. ``digest``: also compute the digest at the end, as replays have it.
     ``budget``: of work (``ninja_game.budget``).
 
     Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or an invalid one,

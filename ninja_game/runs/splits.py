@@ -102,7 +102,7 @@ def run_splits(
 ) -> RunSplits:
     """Run a recording and note its splits, of these events only.
 
-    ``memory``: as of ``Simulation``; "auto" is the plain one while there is little work.
+    ``memory``: as in ``Simulation``; "auto" is the plain one while there is little work.
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
     when its ``budget`` of work is.
     """
@@ -193,7 +193,7 @@ def sum_of_best(rows: Sequence[SplitRow]) -> int:
 
 
 def _shortest_segments(runs: Sequence[RunSplits], known: Container[_Key]) -> dict[tuple[_Key | None, _Key], int]:
-    """The fewest ticks between each two known splits that follow one another in some run; None: the start, tick 0."""
+    """The fewest ticks between each two known splits that follow one another in some run; from None: from the start."""
     shortest: dict[tuple[_Key | None, _Key], int] = {}
     for run in runs:
         points = [(None, 0), *((split.key, split.tick) for split in run.splits if split.key in known)]

@@ -98,14 +98,15 @@ def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> Fil
     events: list[str] = []
     name = ""
     for row in table:
-        x, y, s = float(row["x"]), float(row["y"]), int(row["s"])
+        x, y = float(row["x"]), float(row["y"])
+        state = int(row["s"])
         if row["kind"] == NINJA_NAME:
             name = row["name"]
-            ninja += struct.pack("<4d2i", x, y, float(row["prev_x"]), float(row["prev_y"]), s, int(row["gold"]))
+            ninja += struct.pack("<4d2i", x, y, float(row["prev_x"]), float(row["prev_y"]), state, int(row["gold"]))
             inputs.append(sum(bit for letter, bit in _KEYS if letter in row["keys"]))
             events.append(row["events"])
         else:
-            objects += struct.pack("<2di", x, y, s)
+            objects += struct.pack("<2di", x, y, state)
             if row["tick"] == "0":
                 columns.append((int(row["id"]), row["kind"]))
     if len(objects) != len(columns) * len(events) * OBJECT_RECORD.itemsize:

@@ -77,7 +77,7 @@ def improve(
     """Shorten ``task.first``; a run that ends before the exit is first led there, in half of the time.
 
     ``save`` gets the first run to the exit, each better one, and at last the simplified one. ``earlier``: runs that the
-    commands of ``log`` have found; it goes on from them, in the time that is left, with another seed. ``price``: as of
+    commands of ``log`` have found; it goes on from them, in the time that is left, with another seed. ``price``: as in
     ``simplified_run``. Raises NoWayError, and as ``solve`` does.
     """
     theirs, begun = task.others, list[int]()

@@ -42,7 +42,7 @@ class KnownRun(NamedTuple):
 
 
 def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
-    """Make room for a run of this many ticks; ``play_known`` fills it."""
+    """Make room for a run of this many ticks, which ``play_known`` fills."""
     moves, (masks, gold) = np.zeros((ticks + 1, 4)), np.zeros((2, ticks + 1), np.int64)
     held = np.array(list(keys), np.uint8) & np.uint8(KEYS_DOWN)
     return KnownRun(moves, held, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0, 1.0)

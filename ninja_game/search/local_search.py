@@ -51,7 +51,7 @@ def overwrite(keys: Keys, length: int, start: int, end: int, mask: int, value: i
 
 @fast
 def next_change(keys: Keys, length: int, tick: int, mask: int) -> int:
-    """The first tick after ``tick`` whose keys under the mask differ from the tick before; ``length`` if none."""
+    """The first tick after ``tick`` whose keys under the mask differ from the tick before; else ``length``."""
     for k in range(tick + 1, length):
         if (keys[k] ^ keys[k - 1]) & mask:
             return k
@@ -88,14 +88,15 @@ def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
 
 
 _SIDES = KEYS_DOWN - JUMP_HELD
-# Kinds of edits, by the last of their numbers; those that change keys in place are the last three.
-_CUT, _STRETCH, _TRADE = 0, 1, 2
-_SHIFT_SIDES, _SHIFT_JUMP, _SHIFT_PULSE, _SET_SIDES, _SET_JUMP, _SET_ALL = 4, 6, 8, 9, 10, 11
+_CUT, _STRETCH, _TRADE, _SHIFT_SIDES, _SHIFT_JUMP, _SHIFT_PULSE, _SET_SIDES, _SET_JUMP, _SET_ALL = range(9)
+_CHANCES = {_SHIFT_SIDES: 2, _SHIFT_JUMP: 2, _SHIFT_PULSE: 2}  # of the kinds of edits; the others have 1
+_EDITS = tuple(kind for kind in range(9) for _ in range(_CHANCES.get(kind, 1)))
 
 
 @fast
 def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
-    kind = random_below(source, _SET_ALL + 1)
+    """Make a random edit; gives the first changed tick, and by how many ticks what follows comes earlier."""
+    kind = _EDITS[random_below(source, len(_EDITS))]
     by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
     sign = 1 if random_below(source, 2) else -1
     if kind == _CUT:
@@ -114,11 +115,11 @@ def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int
             stretch(keys, length, tick, by)
             cut(keys, length, min(other + by, length - 1), by)
         return tick, 0
-    if kind <= _SHIFT_SIDES:
+    if kind == _SHIFT_SIDES:
         return shift_boundary(keys, length, tick, _SIDES, sign * by), 0
-    if kind <= _SHIFT_JUMP:
+    if kind == _SHIFT_JUMP:
         return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
-    if kind <= _SHIFT_PULSE:
+    if kind == _SHIFT_PULSE:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
     way = random_below(source, 3) if kind != _SET_JUMP else 0

@@ -69,7 +69,7 @@ class Search:
         self._begin([self.start.initial], resolution, seed, bound)
 
     def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
-        """Begin a new search from the checkpoints of a leg to its goal; ``bound`` as for ``begin``."""
+        """Begin a new search from the checkpoints of a leg to its goal. ``bound``: as in ``begin``."""
         self.backed_up = NO_BACKED_UP
         self.goal = self.goal._replace(
             gold=leg.gold,

@@ -61,7 +61,7 @@ def draw_settings(random: np.random.Generator) -> SpanSettings:
 
 
 class SpanSearches:
-    """Searches along one known run at a time, all in the memory of one Search. ``gold``: pieces to collect; 0: any."""
+    """Searches along one known run at a time, all in the memory of one Search. ``gold``: least pieces to collect."""
 
     def __init__(self, start: Start, heuristics: Heuristics, *, gold: int) -> None:
         self.gold = gold
@@ -141,7 +141,7 @@ class RunShortener:
     """Shortens runs of one level that must collect ``gold`` pieces.
 
     ``start`` and ``heuristics`` are the level's, ``seed`` that of all its random numbers. ``submit`` gets every shorter
-    run; ``spend`` gets the ticks and the cost of each part, and may end the work.
+    run. ``spend`` gets the ticks and the cost of each part, and may end the work.
     """
 
     start: Start

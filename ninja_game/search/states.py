@@ -149,5 +149,5 @@ def gold_hash(w: World, goal: Goal) -> int:
 
 @fast
 def estimate(goal: Goal, switch_state: int, point: int, before: float) -> float:
-    """The ticks to the goal by the field of a switch state; ``before`` (the parent's) if it is not made yet."""
+    """The ticks to the goal by the field of a switch state; those of the parent, ``before``, until that is made."""
     return float(goal.fields[switch_state, point]) if goal.fields[switch_state, 0] >= 0.0 else before

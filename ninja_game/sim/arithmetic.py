@@ -29,4 +29,4 @@ def canonical(value: float) -> float:
     """A number as traces write it: -0.0 as 0.0, every NaN as one NaN."""
     if value != value:
         return NAN
-    return value + 0.0
+    return value + 0  # a whole number stays one

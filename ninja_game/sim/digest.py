@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import Any
 
+from ninja_game.sim.arithmetic import canonical
 from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
-from ninja_game.sim.rules import NAN
 from ninja_game.sim.schema.declare import fields_of, scalars_of
 from ninja_game.sim.schema.object_fields import Drone, Object
 from ninja_game.sim.schema.world_fields import Ninja, World
@@ -41,12 +41,7 @@ class _Reader:
 
     def bytes_of(self, o: Any) -> bytes:
         """Pack the fields of an object canonically."""
-        return self.pack(*map(_canonical, self.get(o)))
-
-
-def _canonical(value: Any) -> Any:
-    """The number with one zero and one NaN."""
-    return NAN if value != value else value + 0
+        return self.pack(*map(canonical, self.get(o)))
 
 
 _WORLD = _Reader(_SCALARS)
@@ -93,12 +88,12 @@ def replay_digest(w: World) -> str:
     would need another version of the replay format.
     """
     n = w.ninja
-    ninja = map(_canonical, (n.x, n.y, n.prev_x, n.prev_y))
+    ninja = map(canonical, (n.x, n.y, n.prev_x, n.prev_y))
     digest = hashlib.sha256(struct.pack("<4d5i", *ninja, n.state, n.box, w.gold, w.outcome, w.tick))
     for slot in range(1, w.id_count + 1):
         if is_traced(w, slot):
             o = w.objects[slot]
-            x, y = map(_canonical, place_of(w, slot))
+            x, y = map(canonical, place_of(w, slot))
             digest.update(struct.pack("<2d3i", x, y, o.id, o.kind, status_of(w, slot)))
     return digest.hexdigest()
 

@@ -59,7 +59,7 @@ class OpenedRun:
 
 
 def open_run(path: Path, *, record: int | None = None, level: Level | None = None) -> OpenedRun:
-    """Open the recording number ``record`` of a file or link; None: its only one.
+    """Open the recording number ``record`` of a file or link, or with None the only one in it.
 
     ``level``: where to play it, None: on its own level in its present state; on another level it has no file yet.
     ``save_run`` replaces only replay texts that it could have written itself: texts with comments, blocks or included

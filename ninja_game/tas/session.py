@@ -43,7 +43,7 @@ class TasSession:
         self.history: History[InputTrack] = History(opened.track)
         self.saved = opened.track
         self.beside: list[BesideRun] = []
-        self._saved_branches = self._kept()
+        self._saved_branches = self._beside_run()
         self.timeline = Timeline(self.origin.level, opened.track.inputs, body=self.origin.body, memory=memory)
         self.before: Trajectory = EMPTY_TRAJECTORY
         self.before_track = opened.track
@@ -84,14 +84,15 @@ class TasSession:
     @property
     def is_saved(self) -> bool:
         """Whether the file holds the present run."""
-        return self.is_run_saved and self._kept() == self._saved_branches
+        return self.is_run_saved and self._beside_run() == self._saved_branches
 
     @property
     def is_run_saved(self) -> bool:
         """Whether the file holds the keys and the markers; branches and watched values do not count."""
         return not self._file_differs and self.track == self.saved
 
-    def _kept(self) -> tuple[list[Branch], tuple[str, ...]]:
+    def _beside_run(self) -> tuple[list[Branch], tuple[str, ...]]:
+        """What the file keeps beside the run: the branches, and the watched values."""
         return list(self.branches.all), self.branches.watched
 
     @property
@@ -235,11 +236,11 @@ class TasSession:
 
     def _keep_opened(self) -> None:
         """Keep the run as it was opened as a branch, before its first edit; that alone leaves nothing to save."""
-        saved = self._kept() == self._saved_branches
+        saved = self._beside_run() == self._saved_branches
         inputs = self.track.inputs
         if inputs and all(branch.track.inputs != inputs for branch in self.branches.all):
             self.keep_branch(OPENED)
-            self._saved_branches = self._kept() if saved else self._saved_branches
+            self._saved_branches = self._beside_run() if saved else self._saved_branches
 
     def checkout_branch(self, number: int) -> None:
         """Make a branch the present run; undo restores the run before. Raises ArgumentError for an unknown one."""
@@ -282,7 +283,7 @@ class TasSession:
         """Write run and branches. Raises OccupiedError, FileError, OSError as ``save_run`` does, ArgumentError."""
         self.end()
         self.file = save_run(self.origin, self.track, self.branches, path, self.file, replacing=replacing)
-        self.saved, self._saved_branches = self.track, self._kept()
+        self.saved, self._saved_branches = self.track, self._beside_run()
         self._file_differs = False
         self.journal.begin_again(self._opened())
 

@@ -237,10 +237,11 @@ def branch_as_json(branch: Branch) -> dict[str, Any]:
 def branch_of_json(kept: dict[str, Any]) -> Branch:
     """The inverse of ``branch_as_json``. Raises one of DAMAGED for anything else."""
     parent = kept["parent"]
-    end, gold, outcome = int(kept["end"]), int(kept["gold"]), str(kept["outcome"])
+    outcome = str(kept["outcome"])
     if outcome not in OUTCOME_NAMES:
         raise ValueError(f"the outcome {outcome[:40]!r}")
-    return Branch(str(kept["name"]), track_of_json(kept), None if parent is None else int(parent), end, outcome, gold)
+    parent = None if parent is None else int(parent)
+    return Branch(str(kept["name"]), track_of_json(kept), parent, int(kept["end"]), outcome, int(kept["gold"]))
 
 
 def track_as_json(track: InputTrack) -> dict[str, Any]:

@@ -162,8 +162,8 @@ class RunCommands(DocumentCommands):
     @property
     def _asks_name(self) -> bool:
         """Whether the run's editor has no name yet."""
-        known = self.session.origin.replay.author or self.app.settings.name
-        return self.session.track.made != NONE and not known
+        author = self.session.origin.replay.author or self.app.settings.name
+        return self.session.track.made != NONE and not author
 
     def keep(self) -> None:
         if self.session.tail_behind == "dead":

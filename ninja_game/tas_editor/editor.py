@@ -240,13 +240,13 @@ class Splitters(TasPart):
 
     def fit(self) -> bool:
         """Update theme and layout for the window, and place all parts; whether they have changed."""
-        shown, settings = self.editor.app.theme, self._settings
-        if (shown, settings) == self._known:
+        theme, settings = self.editor.app.theme, self._settings
+        if (theme, settings) == self._known:
             return False
-        canvas = tas_canvas(shown.canvas.window, settings.text_scale)
-        if self._known[:1] != (shown,) or self.editor.theme.canvas.scale != canvas.scale:
-            self.editor.theme = Theme(shown.palette, canvas)
-        self._known = shown, settings
+        canvas = tas_canvas(theme.canvas.window, settings.text_scale)
+        if self._known[:1] != (theme,) or self.editor.theme.canvas.scale != canvas.scale:
+            self.editor.theme = Theme(theme.palette, canvas)
+        self._known = theme, settings
         self.layout = tas_layout((canvas.window[0] / canvas.scale, canvas.window[1] / canvas.scale), settings)
         for part in self._parts:
             part.place(getattr(self.layout, part.slot))

@@ -118,13 +118,13 @@ class OpeningScreen(Screen):
             self.app.replace(screen)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        shown, colour = f"Opening {self._name} ...", self.theme.palette.on_tile
-        if self._shown == (shown, self.explanation) and not self.redraw:
+        text, colour = f"Opening {self._name} ...", self.theme.palette.on_tile
+        if self._shown == (text, self.explanation) and not self.redraw:
             return []
-        self._shown = shown, self.explanation
+        self._shown = text, self.explanation
         surface.fill(self.theme.palette.tile)
         write = partial(self.theme.text, surface, x=WIDTH / 2, colour=colour, align="centre", width=WIDTH - 80)
-        write(text=shown, y=HEIGHT / 2 - 30, size=18, bold=True)
+        write(text=text, y=HEIGHT / 2 - 30, size=18, bold=True)
         write(text=self.explanation, y=HEIGHT / 2 + 4, size=11)
         return None
 

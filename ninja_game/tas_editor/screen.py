@@ -87,7 +87,7 @@ class TasScreen(WorkspaceScreen):
         return 0.0, self.splitters.layout.roll[0]  # not over its rows
 
     @property
-    def foot_high(self) -> float:  # type: ignore[override]
+    def foot_height(self) -> float:  # type: ignore[override]
         """Notices lie over the floor of the level, not over the tabs and the status."""
         layout = self.splitters.layout
         return layout.size[1] - layout.level[1] - layout.level[3]
@@ -150,11 +150,11 @@ class TasScreen(WorkspaceScreen):
             self.held.follow(event.raw)
             return True
         hides = self.level.take_over.on and "boss" in event.pressed
-        taken = not hides and super().capture(event)
+        is_used = not hides and super().capture(event)
         escape = event.source == ("keys", "escape")
-        if taken and escape:
+        if is_used and escape:
             self.tab.left()
-        return taken or (escape and not hides and self.tab.stop())
+        return is_used or (escape and not hides and self.tab.stop())
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -224,11 +224,11 @@ class Foot(TasPart):
         first, last = editor.selection
         selected = f", {last - first} selected" if last - first > 1 else ""
         timeline = editor.session.timeline
-        known = "" if timeline.is_complete else f", simulated up to {timeline.simulated_until}"
+        progress = "" if timeline.is_complete else f", simulated up to {timeline.simulated_until}"
         other = editor.beside if editor.ghosts else None
         other_note = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
         behind = ", behind the run's" if editor.cursor >= len(editor.track) else " of"
-        text = f"tick {editor.cursor}{behind} {len(editor.track)}{selected}{known}{other_note}"
+        text = f"tick {editor.cursor}{behind} {len(editor.track)}{selected}{progress}{other_note}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
         width = w - 28 - theme.width(text, 9.5)

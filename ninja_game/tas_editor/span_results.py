@@ -37,7 +37,7 @@ NOTHING = "The goal was not reached. More time, a longer span, another method or
 class SpanResults:
     """Runs a task in the background, and puts results into the run, while the ticks before them are unchanged.
 
-    ``every``: as of SpanSearch; None: search the whole run. Raises as SpanSearch does.
+    ``every``: as in SpanSearch, or None to search the whole run. Raises as SpanSearch does.
     """
 
     def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int | None, title: str) -> None:
@@ -83,7 +83,7 @@ class SpanResults:
 
     @property
     def first_behind(self) -> int | None:
-        """The first tick behind a result in the present run; None: it has changed, and no result fits.
+        """The first tick behind a result in the present run; None if that has changed, so that no result fits.
 
         From it on the run is as it was after it reached the goal itself.
         """
@@ -196,12 +196,12 @@ class SpanResults:
             if run.missed_by is None
             and (own is None or run.score < own.score or (run.score == own.score and run.gold > own.gold))
         ]
-        kept = distinct_routes(better, measured=bool(self.task.measure))[:KEPT]
+        routes = distinct_routes(better, measured=bool(self.task.measure))[:KEPT]
         # A run beside that is only found again comes last.
-        kept.sort(key=lambda run: self._equal_run(run) is not None)
-        if [run.score for run in kept] != [run.score for run in self.better]:
+        routes.sort(key=lambda run: self._equal_run(run) is not None)
+        if [run.score for run in routes] != [run.score for run in self.better]:
             self._gained_at = self.search.seconds
-        self.better = tuple(kept)
+        self.better = tuple(routes)
 
     def words(self, result: SpanResult) -> tuple[str, ...]:
         """Cells of a result: score, first tick with other keys, place and speed at the goal, gain."""

@@ -176,7 +176,8 @@ class NameList(ListView):
         self._names, self._size = names, size
 
     def _draw_name(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        (x, y, w, h), chosen, size = area, index == self.index, self._size
+        x, y, w, h = area
+        chosen, size = index == self.index, self._size
         if chosen:
             theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
         height = min(h, theme.common_height(self._names, size, w - 10))

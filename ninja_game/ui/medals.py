@@ -30,7 +30,8 @@ def draw_medal(
 
     A large one has relief and hangs from a ribbon, all within ``size``; ``shine``: progress of the light over it.
     """
-    canvas, palette, large = theme.canvas, theme.palette, reached and size >= _LARGE
+    canvas, palette = theme.canvas, theme.palette
+    large = reached and size >= _LARGE
     metal = pygame.Color(_METALS[medal])
     bright = mixed(metal, palette.spark, 0.6)
     radius = size * 0.4 if large else size / 2

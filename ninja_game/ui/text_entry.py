@@ -49,7 +49,7 @@ class TextEntry(Widget):
         self.first_shown = 0
         self.stops: list[float] = [0.0]
         self._rows = [(0, self.stops)]
-        self._top, self._upper, self._high = 0, 0.0, 1.0
+        self._top, self._upper, self._row_height = 0, 0.0, 1.0
         self._clicks, self._clicked = 0, (-DOUBLE_MS, 0.0)
 
     @property
@@ -124,7 +124,7 @@ class TextEntry(Widget):
         return True
 
     def _to_row(self, y: float) -> None:
-        row = self._top + int((y - self._upper) // self._high)
+        row = self._top + int((y - self._upper) // self._row_height)
         self.first_shown, self.stops = self._rows[min(max(0, row), len(self._rows) - 1)]
 
     def _place_at(self, x: float) -> int:
@@ -141,8 +141,8 @@ class TextEntry(Widget):
         x, y, w, h = self.area
         left, text = x + PAD, self.text
         palette, fill = theme.palette, theme.canvas.fill_rect
-        self._high, room = self._lay_out(theme, left, w - 2 * PAD - 4)
-        height, cursor = self._high, self._cursor_row
+        self._row_height, room = self._lay_out(theme, left, w - 2 * PAD - 4)
+        height, cursor = self._row_height, self._cursor_row
         self._top = max(0, min(max(self._top, cursor - room + 1), cursor, len(self._rows) - room))
         self._upper = y + (h - room * height) / 2
         for row, (first, stops) in enumerate(self._rows[self._top : self._top + room], self._top):
@@ -178,7 +178,7 @@ class TextEntry(Widget):
             self.first_shown -= 1
 
     def _measure(self, theme: Theme, left: float, room: float) -> str:
-        """The visible part; ``stops`` gets the places between its characters."""
+        """Measure the visible part of the text: ``stops`` gets the places between its characters, px."""
         self.stops = [left]
         for last in range(self.first_shown + 1, len(self.text) + 1):
             width = theme.width(self.text[self.first_shown : last].rstrip("\n"), TEXT_SIZE)

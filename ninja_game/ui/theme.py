@@ -77,8 +77,8 @@ class Theme:
     ) -> float:
         """The largest scale in which a text fits; the smallest if none does. ``size``: in the normal one."""
         for scale in self.scales[:-1]:
-            high = height is None or size * scale * LINE_HEIGHT <= height
-            if high and self.lettering.width(text, size * scale, bold=bold) <= width:
+            low_enough = height is None or size * scale * LINE_HEIGHT <= height
+            if low_enough and self.lettering.width(text, size * scale, bold=bold) <= width:
                 return scale
         return self.scales[-1]
 

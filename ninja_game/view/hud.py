@@ -33,9 +33,9 @@ _NAME_FROM = 90.0  # free px beside a text in the border that the level's name n
 
 _MESSAGE_SIZE = 15.0  # letters of a level's message
 _MESSAGE_LINE = 22.0  # height of its lines, px
-_MESSAGE_WIDE = 440.0  # where its lines are broken, px
-_MESSAGE_WIDEST = 680.0  # where a single word ends, px
-_KEYS_WIDE = 70.0  # room for keys before a line, px
+_MESSAGE_WIDTH = 440.0  # where its lines are broken, px
+_MESSAGE_MAX_WIDTH = 680.0  # where a single word ends, px
+_KEYS_WIDTH = 70.0  # room for keys before a line, px
 BORDER_MESSAGE_TOP = CELL * (ROWS + 1)  # top of a message in the border below, px
 _BESIDE_GOLD = 490.0  # its width there, px
 _FAINT = 0.2  # opacity of its panel over the ninja
@@ -46,7 +46,7 @@ _POINTER_SIZE = 9.5  # letters of the names of things
 _TITLE_SIZE = 26.0  # letters of an ended run's time or cause of death
 _MEDAL_SIZE = 15.0  # letters of its medal
 _LINE_SIZE = 12.5  # letters of the other lines of its panel
-_LINE_WIDEST = WIDTH - 150.0  # longer lines of the panel are broken, px
+_LINE_MAX_WIDTH = WIDTH - 150.0  # longer lines of the panel are broken, px
 END_MEDAL_SIZE = 54.0  # size of the medal in the panel, px
 _UPPER = 36.0  # top of the panel, unless it would hide an exit or the end of the run, px
 
@@ -73,20 +73,20 @@ def trough(palette: Palette) -> pygame.Color:
 
 
 class Box(NamedTuple):
-    """The panel of a text, px. ``high``: height of a line; ``size``: of the letters."""
+    """The panel of a text, px. ``line_height``: height of a line; ``size``: of the letters."""
 
     lines: list[str]
     x: float
     y: float
-    w: float  #: width
-    high: float
+    width: float
+    line_height: float
     margin: float  #: between edge and text
     size: float
 
     @property
     def area(self) -> tuple[float, float, float, float]:
         """Left, top, width and height, px."""
-        return self.x, self.y, self.w, self.high * len(self.lines) + 2 * self.margin - 1
+        return self.x, self.y, self.width, self.line_height * len(self.lines) + 2 * self.margin - 1
 
 
 class PlacedMessage(NamedTuple):
@@ -171,11 +171,13 @@ class Hud:
             written.append(self.keys(surface, view.keys))
         written += [self.pointer(surface, *named) for named in view.named]
         for message, roomy, solid in shown:
-            box, opacity, moves = roomy, solid * _clear_of(view.ninja, roomy, softly=view.softly), message.moves
+            box, moves = roomy, message.moves
+            opacity = solid * _clear_of(view.ninja, roomy, softly=view.softly)
             if box.y == BORDER_MESSAGE_TOP:
                 # Beside a message at the right; the rest of the border is for the level's name.
-                left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - box.w)
-                box, opacity, moves = roomy._replace(x=left), solid, ()
+                left = max(24.0, _RIGHT - self.theme.width(view.foot[1], _FOOT_SIZE) - 14 - box.width)
+                box = roomy._replace(x=left)
+                opacity, moves = solid, ()
                 if left > _NAME_FROM:
                     written += self.foot(surface, self.theme.fit(view.name, left - 36, _FOOT_SIZE), "")
             place = self.theme.canvas.rect(*box.area)
@@ -208,7 +210,8 @@ class Hud:
         for medal, ticks in pars:
             draw_medal(surface, self.theme, medal, _BAR_LEFT + bar_length(ticks), _BAR_MIDDLE, _MARK_SIZE)
         x, ink = _BAR_LEFT + _BAR_LENGTH, palette.on_tile
-        words, width = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}", _RIGHT - x - 10
+        words = f"{rounded_text(int(left))} s left{' to live' if left < _LAST_TICKS else ''}"
+        width = _RIGHT - x - 10
         text = self.theme.text(surface, words, _RIGHT, 7.4, size=9, colour=ink, align="right", bold=True, width=width)
         return [frame.union(canvas.rect(x, 2, 8, 20)) if pars else frame, text.inflate(canvas.px(8), 4)]
 
@@ -243,14 +246,15 @@ class Hud:
 
     def end_panel(self, surface: pygame.Surface, view: HudView, end: EndPanel) -> pygame.Rect:
         """A panel: a title and lines under it; with a medal at its left, and then the first line large beside it."""
-        theme, medal, (title, lines, tiles, things) = self.theme, view.medal, end
+        theme, medal = self.theme, view.medal
+        title, lines, tiles, things = end
         below, beside = (26, END_MEDAL_SIZE + 14) if medal else (0, 0)
         named, lines = (lines[0], lines[1:]) if medal else ("", lines)
         head = max(theme.width(title, _TITLE_SIZE, bold=True), theme.width(named, _MEDAL_SIZE, bold=True))
 
         def fitting(line: str) -> list[str]:
-            fits = theme.width(line, _LINE_SIZE) < _LINE_WIDEST
-            return [line] if fits else wrapped(theme, line, _LINE_WIDEST, _LINE_SIZE)
+            fits = theme.width(line, _LINE_SIZE) < _LINE_MAX_WIDTH
+            return [line] if fits else wrapped(theme, line, _LINE_MAX_WIDTH, _LINE_SIZE)
 
         lines = [part for line in lines for part in fitting(line)]
         w = max(220.0, head + beside, *(theme.width(line, _LINE_SIZE) for line in lines)) + 44
@@ -281,7 +285,8 @@ class Hud:
         side = -1 if y > TAG_ROOM else 1
         width = theme.width(name, _POINTER_SIZE, bold=True) + 12
         left = min(max(x - width / 2, 26), WIDTH - 26 - width)
-        tip, base, top = y + side * 17, y + side * 23, tag_top(y)
+        tip, base = y + side * 17, y + side * 23
+        top = tag_top(y)
         box = theme.canvas.fill_rect(surface, palette.accent, left, top, width, 16, 4)
         theme.canvas.polygon(surface, palette.accent, [(x - 6, base), (x + 6, base), (x, tip)])
         middle = left + width / 2
@@ -293,7 +298,8 @@ class Hud:
         x, y, w, h = box.area
         root = min(max(at[0], x + _TAIL), x + w - _TAIL), min(max(at[1], y + _TAIL), y + h - _TAIL)
         upright = not y < at[1] < y + h
-        palette, canvas, rects = self.theme.palette, self.theme.canvas, []
+        palette, canvas = self.theme.palette, self.theme.canvas
+        rects = []
         for colour, half_width in ((palette.panel_edge, _TAIL), (palette.panel, _TAIL - 2)):
             dx, dy = (half_width, 0) if upright else (0, half_width)
             ends = (root[0] - dx, root[1] - dy), (root[0] + dx, root[1] + dy)
@@ -313,14 +319,14 @@ class Hud:
         self, surface: pygame.Surface, box: Box, moves: Sequence[int] = (), letters: Sequence[str] = ()
     ) -> pygame.Rect:
         """A message in its panel, each line behind the keys that it explains."""
-        lines, left, y, w, high, margin, size = box
-        rect, room = self.theme.panel(surface, *box.area, 4), _MESSAGE_WIDEST - (_KEYS_WIDE if moves else 0)
+        lines, left, y, w, line_height, margin, size = box
+        rect, room = self.theme.panel(surface, *box.area, 4), _MESSAGE_MAX_WIDTH - (_KEYS_WIDTH if moves else 0)
         for k, line in enumerate(lines):
-            top = y + margin + high * k
+            top = y + margin + line_height * k
             if moves:
                 self.keys(surface, moves[k], left + 14, top + 2, letters)
-            x, align = (left + 14 + _KEYS_WIDE, "left") if moves else (left + w / 2, "centre")
-            self.theme.text(surface, line, x, top + (high - size) / 2, size=size, align=align, width=room)
+            x, align = (left + 14 + _KEYS_WIDTH, "left") if moves else (left + w / 2, "centre")
+            self.theme.text(surface, line, x, top + (line_height - size) / 2, size=size, align=align, width=room)
         return rect
 
     def keys(
@@ -375,25 +381,25 @@ def _fade(surface: pygame.Surface, place: pygame.Rect, behind: pygame.Surface | 
 def _box(theme: Theme, message: PlacedMessage) -> Box:
     """As ``Hud.box``. Cached: the search for a place takes longer than all the rest of a picture."""
     text, tiles, things, place, covers, frame, taken, moves = message
-    keys = _KEYS_WIDE if moves else 0.0
-    high, anchor = _MESSAGE_LINE * theme.scales[0], place if frame else None
+    keys = _KEYS_WIDTH if moves else 0.0
+    line_height, anchor = _MESSAGE_LINE * theme.scales[0], place if frame else None
     if place:
         things = (*things, (*place, MUST))
     for area, cost in ((frame, MAY), (taken, 9 * MUST)):
         things = (*things, *points_in(area, cost)) if area else things
     boxes: list[tuple[int, Box]] = []
-    for rows, width in (
+    for rows, share in (
         ((0, 1), (0, 0.6), (0, 0.4), (0, 0.3)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6))
     ):
         lines = text.split("\n")
         if not keys:
-            lines = [part for line in lines for part in wrapped(theme, line, width * _MESSAGE_WIDE, _MESSAGE_SIZE)]
-        lines = [theme.fit(line, _MESSAGE_WIDEST - keys, _MESSAGE_SIZE) for line in lines]
-        w = min(max(theme.width(line, _MESSAGE_SIZE) for line in lines), _MESSAGE_WIDEST - keys) + 28 + keys
+            lines = [part for line in lines for part in wrapped(theme, line, share * _MESSAGE_WIDTH, _MESSAGE_SIZE)]
+        lines = [theme.fit(line, _MESSAGE_MAX_WIDTH - keys, _MESSAGE_SIZE) for line in lines]
+        width = min(max(theme.width(line, _MESSAGE_SIZE) for line in lines), _MESSAGE_MAX_WIDTH - keys) + 28 + keys
         left, y, covered, hidden = solid_place(
-            tiles, w, high * len(lines) + 19, things, place, rows=rows, beside=anchor
+            tiles, width, line_height * len(lines) + 19, things, place, rows=rows, beside=anchor
         )
-        box = Box(lines, left, y, w, high, 10.0, _MESSAGE_SIZE)
+        box = Box(lines, left, y, width, line_height, 10.0, _MESSAGE_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):
             return box
         boxes.append((hidden, box))
@@ -401,5 +407,5 @@ def _box(theme: Theme, message: PlacedMessage) -> Box:
         return min(boxes)[1]
     text = text.replace("\n", "    ")
     size = min(_MESSAGE_SIZE, _MESSAGE_SIZE * _BESIDE_GOLD / theme.width(text, _MESSAGE_SIZE))
-    w = theme.width(text, size) + 28
-    return Box([text], (WIDTH - w) / 2, BORDER_MESSAGE_TOP, w, 17.0, 3.0, size)
+    width = theme.width(text, size) + 28
+    return Box([text], (WIDTH - width) / 2, BORDER_MESSAGE_TOP, width, 17.0, 3.0, size)

@@ -192,7 +192,7 @@ class LevelView:
 
     def _fall_down(self, world: World) -> None:
         n = world.ninja
-        now, before = self.ninja_animation.pose(1.0).moved(n.x, n.y), self.ninja_animation.pose(0.5).moved(n.x, n.y)
+        before, now = (self.ninja_animation.pose(fraction).moved(n.x, n.y) for fraction in (0.5, 1.0))
         velocity = n.x - n.prev_x, n.y - n.prev_y
         self.ragdoll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._rng, self._corpse_hit)
         for event in world.events[: world.event_count]:
@@ -282,7 +282,8 @@ class LevelView:
             surface.blit(picture, origin)
             # A shaken picture leaves two edges free, which stay as they are.
             dx, dy = origin[0] - stage.x, origin[1] - stage.y
-            left, top = 0 if dx > 0 else stage.width + dx, 0 if dy > 0 else stage.height + dy
+            left = 0 if dx > 0 else stage.width + dx
+            top = 0 if dy > 0 else stage.height + dy
             for edge in ((left, 0, abs(dx), stage.height), (0, top, stage.width, abs(dy))):
                 surface.blit(picture, stage.move(edge[:2]), edge)
             return mended

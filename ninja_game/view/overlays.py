@@ -209,7 +209,8 @@ def _draw_shape(target: DrawTarget, shape: HitShape) -> None:
     if not (-50 < shape.x < 850 and -50 < shape.y < 650):
         return
     if shape.round:
-        centre, radius = canvas.point(shape.x, shape.y), max(1, round(half * canvas.scale))
+        centre = canvas.point(shape.x, shape.y)
+        radius = max(1, round(half * canvas.scale))
         rect = pygame.draw.aacircle(target.surface, colour, centre, radius, 1)
     else:
         rect = canvas.frame_rect(target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5)

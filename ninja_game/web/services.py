@@ -105,7 +105,7 @@ class PageServices:
             raise NinjaGameError(str(error)) from None
 
     def verdicts(self, name: str, data: bytes) -> Iterator[str | None]:
-        """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``; None: a pause.
+        """A verdict on every recording in a file, one by one: JSON as from ``ninja-game verify --json``; None pauses.
 
         ``{"unreadable": message}`` for one that cannot be read, or takes more work than a page does.
         """
@@ -134,10 +134,10 @@ class PageServices:
                     continue
                 try:
                     verdict = yield from verify_in_slices(recording, "plain", budget=PAGE_BUDGET, slice_work=TURN_WORK)
-                    shown = with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
+                    fields = with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
                 except BudgetError as error:
                     error = replace(error, hint="`ninja-game verify` judges it on a desktop", option="")
-                    shown = {"unreadable": str(error)}
+                    fields = {"unreadable": str(error)}
                 except NinjaGameError as error:
-                    shown = {"unreadable": str(error)}
-                yield json.dumps(shown)
+                    fields = {"unreadable": str(error)}
+                yield json.dumps(fields)

@@ -66,7 +66,7 @@ class Visitor:
         return self.page.evaluate("text => ninjaGame.python.runPython('import boot; app = boot.app()\\n' + text)", text)
 
     def eventually(self, text: str) -> None:
-        """Wait until an expression as of ``python`` is true."""
+        """Wait until an expression as in ``python`` is true."""
         eventually(self.page, lambda: self.python(text), text)
 
     def menu(self, label: str) -> None:

@@ -66,6 +66,13 @@ def test_a_hidden_decision_is_seen(text: str) -> None:
     assert not faults(lint.hidden_decisions, "ninja_game/a.py", "a if b else c if d else e\n'-' * n\n[a] * len(b)")
 
 
+@pytest.mark.parametrize("text", ["a, b, c = f(x), g(x), h(x)", "a, b, c = x, 1, f(x)", "a, b, c = x, y, x == y"])
+def test_three_values_that_are_made_in_unlike_ways_are_seen(text: str) -> None:
+    assert faults(lint.hidden_decisions, "ninja_game/a.py", text)
+    like = "a, b = f(x), g(x)\na, b, c = x, y.z, x + 1\na, b, c = x.f(), y.f(), z.f()"
+    assert not faults(lint.hidden_decisions, "ninja_game/a.py", like)
+
+
 @pytest.mark.parametrize(
     "file, text", [("tools/a.py", "from tests.sim import b"), ("tests/support/a.py", "def f():\n    import tools.b")]
 )

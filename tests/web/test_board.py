@@ -19,7 +19,7 @@ from ninja_game.board import collect
 from ninja_game.board.categories import FASTEST, HIGHEST, Category
 from ninja_game.board.collect import MAX_RECORDS
 from ninja_game.board.copies import Near
-from ninja_game.board.judge import judge
+from ninja_game.board.judge import Keeping, judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.report import DATE, read_board
 from ninja_game.board.runs import ASSISTED, PLAYED, RunKey, ValidatedRuns
@@ -71,7 +71,7 @@ def judged_by_file_dates(folder: Path, levels: Path) -> ValidatedRuns:
     def date(key: RunKey, way: str) -> str:
         return datetime.fromtimestamp((folder / key[0]).lstat().st_mtime, UTC).strftime(DATE) if way else ""
 
-    return judge(folder, published_levels(levels), dates=date, jobs=1)
+    return judge(folder, published_levels(levels), Keeping(dates=date), jobs=1)
 
 
 def why(folder: Path, levels: Path) -> str:
@@ -212,7 +212,7 @@ def test_the_most_contested_levels_are_in_the_order_of_their_count(runs: Path, l
             put(runs, f"{name}{number}.txt", walk)
     days = {f"{name}{number}.txt": f"2026-01-0{number + 1}T12:00:00Z" for name in "abc" for number in range(3)}
     shown = published_levels(levels)
-    judged = judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]])
+    judged = judge(runs, shown, Keeping(dates=lambda key, _: days[key[0]]), jobs=1)
     BoardPages(tmp_path / "site", Ranking(judged, shown)).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8").partition("<h2>Most cont")[2]
     assert "By how often records were beaten, of all categories and ladders; results are" in page
@@ -546,7 +546,7 @@ def test_a_near_copy_has_no_place_until_somebody_confirms_it(runs: Path, levels:
         data.write_text(data.read_text("utf-8").replace(old, new, 1), "utf-8")
         assert check(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))[0] == 0
         assert check(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
-        ranking = Ranking(judge(runs, shown, jobs=1, ledger=read_board(data, datetime.now(UTC))), shown)
+        ranking = Ranking(judge(runs, shown, Keeping(read_board(data, datetime.now(UTC))), jobs=1), shown)
         places = [(each.place, each.run.player) for each in ranking.tables[DIGEST][PLAYED, FASTEST]]
         records = [run.player for run in ranking.history[DIGEST, (PLAYED, FASTEST)]]
         found.append((places, records))
@@ -604,7 +604,7 @@ def test_a_near_copy_stays_one_where_the_first_run_is_withdrawn_and_comes_back(
     def ranked() -> list[tuple[int, str, str]]:
         assert check(runs, levels, "--json", str(data), "--site", str(tmp_path / "site"))[0] == 0
         assert check(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
-        ranking = Ranking(judge(runs, shown, jobs=1, ledger=read_board(data, datetime.now(UTC))), shown)
+        ranking = Ranking(judge(runs, shown, Keeping(read_board(data, datetime.now(UTC))), jobs=1), shown)
         assert "Hal" not in {each.run.player for each in ranking.records}
         return [(each.place, each.run.player, each.run.remark) for each in ranking.tables[DIGEST][PLAYED, FASTEST]]
 
@@ -916,7 +916,7 @@ def test_no_number_and_no_date_is_broken(width: int, chromium: Any, runs: Path, 
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"))
     now = "2026-01-31T12:00:00Z"
     shown = published_levels(levels)
-    BoardPages(tmp_path / "site", Ranking(judge(runs, shown, jobs=1, dates=lambda *_: now), shown)).write()
+    BoardPages(tmp_path / "site", Ranking(judge(runs, shown, Keeping(dates=lambda *_: now), jobs=1), shown)).write()
     page = chromium.new_page(viewport={"width": width, "height": 844})
     for name in ("index", f"levels/{DIGEST[:16]}", "levels", "players"):
         page.goto((tmp_path / "site" / "board" / f"{name}.html").as_uri())

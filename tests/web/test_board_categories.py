@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.board.categories import DEFAULT_CATEGORIES, FASTEST, MAX_CATEGORIES, RUN_NUMBERS, Category, read_rules
-from ninja_game.board.judge import judge
+from ninja_game.board.judge import Keeping, judge
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import ASSISTED, PLAYED
 from ninja_game.cli.main import cli
@@ -129,7 +129,7 @@ def test_a_board_has_the_name_of_its_rules(runs: Path, levels: Path, tmp_path: P
     rules = read_rules(filed(tmp_path, 'name = "Friday <races>"\n' + category()))
     shown = published_levels(levels)
     now = "2026-01-31T12:00:00Z"
-    judged = judge(runs, shown, jobs=1, dates=lambda *_: now)
+    judged = judge(runs, shown, Keeping(dates=lambda *_: now), jobs=1)
     BoardPages(tmp_path / "named", Ranking(judged, shown, *rules)).write()
     BoardPages(tmp_path / "unnamed", Ranking(judged, shown, rules.categories)).write()
     named, plain = (tmp_path / folder / "board" for folder in ("named", "unnamed"))
@@ -210,7 +210,7 @@ def test_no_record_depends_on_the_clock(runs: Path, levels: Path, tmp_path: Path
     put(runs, "cid.txt", replay(level=GOLD_LATER, author="Cid"))
     shown = published_levels(levels)
     days = {"ann.txt": "2026-01-02T12:00:00Z", "bea.txt": "2026-01-01T12:00:00Z", "cid.txt": "2025-12-20T12:00:00Z"}
-    ranking = Ranking(judge(runs, shown, jobs=1, dates=lambda key, _: days[key[0]]), shown, DEFAULT_CATEGORIES)
+    ranking = Ranking(judge(runs, shown, Keeping(dates=lambda key, _: days[key[0]]), jobs=1), shown, DEFAULT_CATEGORIES)
     assert ranking.level_of_the_week == (DIGEST, 2, 2)
     assert [(each.run.player, [*each.gains.values()]) for each in ranking.records] == [
         ("Ann", [5.0, 5.0]), ("Bea", [None, None]), ("Cid", [None, None]),

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.board.categories import FASTEST
-from ninja_game.board.judge import judge
+from ninja_game.board.judge import Keeping, judge
 from ninja_game.board.memo import Memo
 from ninja_game.board.ranking import Ranking
 from ninja_game.board.runs import PLAYED, ValidatedRuns
@@ -35,7 +35,9 @@ def episode(folder: Path, author: str, runs: list[Path], name: str = "") -> Path
 
 
 def judged(folder: Path, memo: Memo | None = None) -> ValidatedRuns:
-    return judge(folder, SHOWN, jobs=1, memo=memo, dates=lambda key, _: f"2026-01-0{1 + (key[0] > 'b')}T00:00:00Z")
+    return judge(
+        folder, SHOWN, Keeping(dates=lambda key, _: f"2026-01-0{1 + (key[0] > 'b')}T00:00:00Z"), jobs=1, memo=memo
+    )
 
 
 def whole(folder: Path) -> list[tuple[float, list[str]]]:

@@ -217,6 +217,7 @@ def read_object_line(text: str) -> list[ListedObject] | list[OddTile]:
 
 
 def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
+    """The keyword, of one word or two, and the words behind it. Raises LevelError for an unknown one."""
     for count in (2, 1):
         keyword = " ".join(token.text for token in tokens[:count])
         if keyword in FORMS:

@@ -187,7 +187,7 @@ def write_object_lines(specs: Sequence[ObjectSpec]) -> list[str]:
 
 
 def _readable(spec: ObjectSpec) -> tuple[str, str, str]:
-    """Keyword, place and further words of a record's line; ``raw`` if no form reproduces it to the last bit."""
+    """Keyword, place and further words of a record's line; ``raw`` if no other form reproduces every bit of it."""
     keyword, place, words = best_form(spec)
     if keyword:
         listed = read_object_line(f"{keyword} {place} {words}")
@@ -235,6 +235,7 @@ def best_form(spec: ObjectSpec) -> tuple[str, str, str]:
 
 
 def _door_form(values: tuple[float, ...]) -> tuple[str, str, str]:
+    """As ``best_form``."""
     x, y, vertical, trap, column, row, locked, i, j = values
     keyword = next((word for word, flags in DOORS.items() if flags == (trap, locked)), "")
     side = next((word for word, numbers in SIDES.items() if numbers == (vertical, i, j)), "")

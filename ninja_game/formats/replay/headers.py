@@ -171,6 +171,7 @@ def read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str
 
 @lru_cache(LEVELS_KEPT)
 def _level_of(text: str) -> tuple[Level, str, str]:
+    """A level with its name and its author. Raises LevelError."""
     read = parse_ascii_level(text)
     level = read.level
     # Tuples with the same NaN object are equal, so a replay equals the one that was written.

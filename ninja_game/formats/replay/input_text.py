@@ -48,7 +48,7 @@ RepeatedKeys = tuple[int, str, int]  # keys that are down, "!", "-" or "" as mar
 
 
 def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | None = None) -> Inputs:
-    """Read the inputs in numbered lines. ``include``: reads the files that they name; None: no file may be named.
+    """Read the inputs in numbered lines. ``include``: reads the files that they name. Without it, they may name none.
 
     Raises ReplayError with file, line and column for malformed lines, and for more than MAX_TICKS ticks.
     """

@@ -33,7 +33,7 @@ class Provenance(NamedTuple):
 
     @property
     def assisted(self) -> bool | None:
-        """Whether more than a person's keys in the game made it; None: unknown."""
+        """Whether more than a person's keys in the game made it; None if nobody knows."""
         if self.assists or self.edits or self.searches:
             return True
         return False if self.played else None

@@ -67,7 +67,7 @@ class PartContext:
         return table
 
     def records(self, rows: Iterable[Any], row: type) -> Any:
-        """A table for kernels, which read the fields of its rows by name. ``row``: as of ``rows``."""
+        """A table for kernels, which read the fields of its rows by name. ``row``: as in ``rows``."""
         return np.array(list(rows), _dtype(row)) if self.compiled else list(rows)
 
     def ranges(self, lowest: Array, highest: Array, divisors: Array) -> Any:

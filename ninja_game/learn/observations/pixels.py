@@ -270,10 +270,10 @@ def solid_points(
     context: PartContext, number: int, across: int, down: int, pixel_x: float, pixel_y: float
 ) -> NDArray[np.uint8]:
     """Count the solid points of each pixel (down, across); outside the world all is solid."""
-    wide, high = pixel_x / _SAMPLES, pixel_y / _SAMPLES
-    points = solidity(context, number, across * _SAMPLES, down * _SAMPLES, (wide, high))
-    points[:, int(WORLD_WIDTH / wide) :] = 1
-    points[int(WORLD_HEIGHT / high) :] = 1
+    width, height = pixel_x / _SAMPLES, pixel_y / _SAMPLES
+    points = solidity(context, number, across * _SAMPLES, down * _SAMPLES, (width, height))
+    points[:, int(WORLD_WIDTH / width) :] = 1
+    points[int(WORLD_HEIGHT / height) :] = 1
     return np.asarray(points.reshape(down, _SAMPLES, across, _SAMPLES).sum((1, 3)), np.uint8)
 
 
@@ -341,11 +341,11 @@ def redraw_under(
 ) -> None:
     """Draw the area of an object again: its tiles, then all objects near it in order."""
     first_column, last_column, first_row, last_row = pixels_of(area_of(o, size, 0.0), frame)
-    wide = last_column + 1 - first_column
+    width = last_column + 1 - first_column
     for line in range(first_row, last_row + 1):
         line_start = line * frame.width + first_column
-        line_end = line_start + wide
-        copy_values(picture[line_start:line_end], tiles[line_start:line_end], wide)
+        line_end = line_start + width
+        copy_values(picture[line_start:line_end], tiles[line_start:line_end], width)
     x, y = frame.pixel_x, frame.pixel_y
     part = Frame(frame.width, 0.0, 0.0, x, y, first_column, last_column, first_row, last_row, frame.rounded)
     near = area_of(o, size, max(x, y) + 2.0 * ROUNDING)

@@ -45,7 +45,7 @@ SAMPLES = 8  # points across a cell for measuring distances: the error is below 
 def solidity(
     context: PartContext, number: int, across: int, down: int, spacing: tuple[float, float] | None = None
 ) -> NDArray[np.uint8]:
-    """Points of a level, (down, across), spread evenly over the world, or ``spacing`` px apart; 1: solid."""
+    """Which points of a level are solid, uint8 (down, across): spread evenly over it, or ``spacing`` px apart."""
     points = np.zeros((down, across), np.uint8)
     cell_width, cell_height = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
     context.worlds.kernel(mark_solid)(context.worlds.maps, number, cell_width, cell_height, points)
@@ -220,7 +220,10 @@ class Rays(Part):
         return Box(0.0, 1.0 if self.normalised else self.reach, (self.count,), np.float32)
 
     def tables(self, context: PartContext) -> tuple[Any, ...]:
-        """The directions, to 12 digits, so that all machines agree; px between lines; reach; factor; edge states."""
+        """What ``observe_rays`` reads: directions, px from one grid line to the next along them, reach, factor, edges.
+
+        Directions are rounded to 12 digits, so that all machines agree.
+        """
         angles = [2.0 * pi * k / self.count for k in range(self.count)]
         units = [[round(f(angle), 12) for angle in angles] for f in (cos, sin)]
         paces = [[CELL / abs(unit) if unit else 0.0 for unit in axis] for axis in units]

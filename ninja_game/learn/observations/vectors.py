@@ -208,7 +208,7 @@ def choose_exit(x: float, y: float, opened: int, exits: Any, start: int, end: in
 
 @fast
 def nearest_gold(w: World, gold: Any, start: int, end: int, guess: int) -> int:
-    """The nearest piece that is left, the first of equally near ones; -1: none.
+    """The nearest piece that is left, the first of equally near ones; -1 if none is.
 
     The level's table is near in memory, the world's objects are not, so they are read last. With a good ``guess``, a
     piece that is left (or -1), such as the last nearest one, hardly any object is read.

@@ -76,15 +76,13 @@ class StatusLine(EditorPart):
             slopes = "No slopes: a box keeps its corners. "
         if tools.tool == Tool.SELECT and tools.takes != TAKES[0]:
             slopes = f"Takes only {tools.takes}: Shift+V. "
-        start, shown = self.session.edited.at_pointer.start, slopes + _TOOL_HINTS[tools.effective_tool]
+        start, hint = self.session.edited.at_pointer.start, slopes + _TOOL_HINTS[tools.effective_tool]
         if tools.brush.draws_objects and tools.effective_tool == Tool.BRUSH and tools.brush.spec.kind in (DOOR, EXIT):
             what, two = object_type_name(tools.brush.spec), has_switch(tools.brush.spec)
-            shown = (
-                f"Click where the {what} is{', then where its switch is' if two else ': it has no switch'}. F1: help"
-            )
+            hint = f"Click where the {what} is{', then where its switch is' if two else ': it has no switch'}. F1: help"
         if start != "off" and self.view.hovering:
-            shown = _REACH.format(start) if self.session.edited.at_pointer.reach else _NO_REACH
-        return self.view.hint or shown
+            hint = _REACH.format(start) if self.session.edited.at_pointer.reach else _NO_REACH
+        return self.view.hint or hint
 
     def render_key(self) -> tuple[object, ...]:
         return self.session.tools.pointer, self.session.tools.frame_size, self.text(), self.view.camera.zoom

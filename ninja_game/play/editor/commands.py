@@ -452,11 +452,8 @@ class EditorCommands(DocumentCommands):
 
         entry = self._entry()
         mood = entry.mood if entry else Mood()
-
-        def inputs() -> bytes:
-            return self.session.certifying_inputs
-
-        self.app.push(MessagesScreen(self.app, tools.draft, here, put, self.playtest_message, mood, inputs, at))
+        screen = partial(MessagesScreen, self.app, tools.draft, here, put, self.playtest_message, mood)
+        self.app.push(screen(lambda: self.session.certifying_inputs, at))
 
     def _entry(self) -> Entry | None:
         """The level's file as a level to play: in its pack, or alone; None without a file."""

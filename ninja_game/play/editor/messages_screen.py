@@ -279,7 +279,8 @@ class MessagesScreen(MenuScreen):
             colour = theme.palette.bad if problem else theme.palette.text
             lines = [text, self.checks.advice(row)]
             used = theme.paragraph(surface, lines, (x, y, width, 70), 11, 14, colour=colour) + 6
-            texts, y, height = [about], y + used, height - used
+            texts = [about]
+            y, height = y + used, height - used
         theme.paragraph(surface, texts, (x, y, width, height), 10, 13, colour=theme.palette.faint)
 
     def _about_moment(self) -> str:

@@ -126,7 +126,8 @@ class ObjectPictures:
             places = {BODY_PART: (x, CELL * cell_of(x, y)[1] + 18.0)}
         sprites = [(key, places[at][0] + x, places[at][1] + y) for at, key, x, y in self._kept[model] if at in places]
         canvas, book = self.target.canvas, self.target.book
-        rects, cells = [], [cell_of(*place) for place in places.values()]
+        rects = []
+        cells = [cell_of(*place) for place in places.values()]
         for key, x, y in sprites:
             if is_near(x, y):
                 sprite, (px, py) = book.sprite(key), canvas.point(x, y)
@@ -140,20 +141,20 @@ class ObjectPictures:
             return
         animation = ObjectAnimation(world)
         moving, target = set(animation.moving_slots), self.target
-        noted = _Noted(target.canvas, target.palette, target.book)
+        recorder = _Noted(target.canvas, target.palette, target.book)
         for number, spec in enumerate(specs):
             slot = number + 2
             o = world.objects[slot]
-            noted.sprites = static_sprites_of(world, slot, animation, 1.0)
+            recorder.sprites = static_sprites_of(world, slot, animation, 1.0)
             if spec.kind == kinds.EXIT:
-                noted.sprites += static_sprites_of(world, o.partner, animation, 1.0)
+                recorder.sprites += static_sprites_of(world, o.partner, animation, 1.0)
             elif spec.kind == kinds.DOOR and o.mechanism == TRAP and (place := door_place(o)):
-                noted.sprite(static_sprites.door(TRAP, 0).turned(place[2]).faded(_HIDDEN), place[0], place[1])
+                recorder.sprite(static_sprites.door(TRAP, 0).turned(place[2]).faded(_HIDDEN), place[0], place[1])
             elif slot in moving:
                 animation.moving_slots = [slot]
-                draw_moving(noted, world, animation, 1.0)
+                draw_moving(recorder, world, animation, 1.0)
             places = points(spec)
-            for key, x, y in noted.sprites if places else ():
+            for key, x, y in recorder.sprites if places else ():
                 part = min(places, key=lambda part: dist(places[part], (x, y)))
                 self._kept[spec].append((part, key, x - places[part][0], y - places[part][1]))
 

@@ -119,8 +119,10 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         title, rows = _of_tile(view)
     head, rows = Label((x, y, w, 15), title, size=10), [*_copying(tools), *rows]
     row = min(_ROW_HEIGHT, (area[3] - 17) / max(1, len(rows)))
-    made = [make((x, y + 17 + row * k, w, row - 3)) for k, make in enumerate(rows)]
-    flat = [widget for widgets in made for widget in (widgets if isinstance(widgets, Sequence) else [widgets])]
+    widgets: list[Widget] = [head]
+    for k, make in enumerate(rows):
+        made = make((x, y + 17 + row * k, w, row - 3))
+        widgets += made if isinstance(made, Sequence) else [made]
     below = y + 21 + row * len(rows)
     room = max(0, int((y + area[3] - 3 - below) // _KEY_HEIGHT))
     lines = list(key_table(tools).items())[:room] if view.message is None else []
@@ -129,16 +131,16 @@ def property_widgets(view: EditorView, area: Area) -> Sequence[Widget]:
         for number, line in enumerate(lines)
         for text, right, width in zip(line, (0, 68), (66, w - 68), strict=True)
     ]
-    return [head, *flat, *keys]
+    return [*widgets, *keys]
 
 
 def _copying(tools: EditorTools) -> list[_RowMaker]:
     """What Select takes, and what happens to the empty cells of a copy."""
     rows: list[_RowMaker] = []
     if tools.tool == Tool.SELECT and not tools.ghost:
-        taken = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
+        choices = list(zip(("takes: all", "takes: only tiles", "takes: only objects"), TAKES, strict=True))
         rows.append(
-            lambda area: Choice(area, "", taken, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
+            lambda area: Choice(area, "", choices, lambda: tools.takes, tools.take, hint=EDITOR_COMMANDS.hint("takes"))
         )
     if tools.ghost.tiles if tools.ghost else tools.selection.area:
         empty = [("empty cells: left out", False), ("empty cells: copied", True)]
@@ -193,7 +195,8 @@ def _of_object(tools: EditorTools) -> tuple[str, list[_RowMaker]]:
 
 
 def _of_tile(view: EditorView) -> tuple[str, list[_RowMaker]]:
-    tools, set_slopes, about = view.session.tools, view.session.set_slopes, EDITOR_COMMANDS.hint("slopes")
+    tools, set_slopes = view.session.tools, view.session.set_slopes
+    about = EDITOR_COMMANDS.hint("slopes")
     first = FIRST_STEPS if tools.draft.level == Level() else ()
     rows: list[_RowMaker] = [partial(Label, text=text, size=9.5) for text in first]
     modes = [("slopes: by hand", False), ("slopes: by themselves", True)]
@@ -212,7 +215,8 @@ _ARRANGING: dict[str, dict[str, tuple[int, float | None]]] = {
 def _align_buttons(tools: EditorTools, head: str) -> _RowMaker:
     most, buttons = len(tools.selection.parts), []
     for text, (axis, share) in _ARRANGING[head].items():
-        able, verb = most > 1 + (share is None), head or "Align"
+        verb = head or "Align"
+        able = most > 1 + (share is None)
         hint = f"{verb} the selected objects: {text.lower()}"
         why = f"{verb} needs {'three' if share is None else 'two'} or more selected objects; cells stay in place"
         buttons.append((text, partial(tools.selected.arrange, axis, share) if able else None, hint if able else why))

@@ -34,7 +34,7 @@ class EditorScreen(WorkspaceScreen):
 
     table = EDITOR_COMMANDS
     small_notices = True
-    foot_high = HEIGHT - LAYOUT.findings[1]  #: in the level's lower border
+    foot_height = HEIGHT - LAYOUT.findings[1]  #: in the level's lower border
 
     def __init__(self, app: App, source: Source | None = None, *, offers_recovered: bool = True) -> None:
         super().__init__(app)

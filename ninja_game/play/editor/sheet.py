@@ -68,8 +68,8 @@ class LevelSheet:
         self._seen = pygame.Rect((-canvas.origin[0], -canvas.origin[1]), canvas.size)
         if self.draft and canvas.scale == self.flat.scale:
             self._tiles.scroll(canvas, grid_tiles(self.draft.level))
-            kept = scrolled(self.surface, canvas.origin[0] - left, canvas.origin[1] - top)
-            self._dirty += rects_around(kept.move(self._seen.topleft), self._seen)
+            unchanged = scrolled(self.surface, canvas.origin[0] - left, canvas.origin[1] - top)
+            self._dirty += rects_around(unchanged.move(self._seen.topleft), self._seen)
             return
         self.surface, self._tiles = pygame.Surface(canvas.size), TileSheet(canvas, self.palette.tile)
         if canvas.scale != self.flat.scale:
@@ -126,13 +126,15 @@ class LevelSheet:
 
     def paint(self) -> list[pygame.Rect]:
         """Draw all changes; the px of the sheet that changed."""
-        dirty, self._dirty = united(area.clip(self._seen) for area in self._dirty), []
+        dirty = united(area.clip(self._seen) for area in self._dirty)
+        self._dirty = []
         for area in dirty:
             self._repaint_area(area)
         return [area.move(self.canvas.origin) for area in dirty]
 
     def _repaint_area(self, flat: pygame.Rect) -> None:
-        surface, target, area = self.surface, self.target, flat.move(self.canvas.origin)
+        surface, target = self.surface, self.target
+        area = flat.move(self.canvas.origin)
         if self.draft is None:
             return
         surface.set_clip(area)
@@ -190,7 +192,7 @@ class GridLine(NamedTuple):
 
 
 class Grid(NamedTuple):
-    """Lines every ``step`` px from the level's corner, moved by ``shift``; 0: none."""
+    """Lines every ``step`` px from the level's corner, moved by ``shift``; no lines if ``step`` is 0."""
 
     name: str
     step: float
@@ -238,16 +240,16 @@ def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float =
 
 def route_mark(canvas: Canvas, colour: Colour, route: PathPoints) -> LevelMark:
     """The visible part of a run's route, with a dot at its end."""
-    shown = [point for point in route if is_near(*point)]
-    if len(shown) < 2:
+    near = [point for point in route if is_near(*point)]
+    if len(near) < 2:
         return LevelMark(lambda _: None, ())
 
     def draw(target: DrawTarget) -> None:
-        places = [target.canvas.exact(*point) for point in shown]
+        places = [target.canvas.exact(*point) for point in near]
         pygame.draw.lines(target.surface, colour, closed=False, points=places, width=target.canvas.px(1.4))
-        target.disc(colour, *shown[-1], 3.0)
+        target.disc(colour, *near[-1], 3.0)
 
-    x, y = [point[0] for point in shown], [point[1] for point in shown]
+    x, y = [point[0] for point in near], [point[1] for point in near]
     box = canvas.rect(min(x) - 5, min(y) - 5, max(x) - min(x) + 10, max(y) - min(y) + 10)
     return LevelMark(draw, (box.inflate(8, 8),))
 
@@ -311,7 +313,8 @@ _SAID_AT = {
 def things_of(draft: Draft, when: Moment) -> list[Point]:
     """Places of the objects whose touch is the moment ``when`` of a message, px; none for other moments."""
     name, part = _SAID_AT.get(when, ("", BODY_PART))
-    return [at for spec in draft.objects if object_type_name(spec) == name and (at := points(spec).get(part))]
+    places = [points(spec) for spec in draft.objects if object_type_name(spec) == name]
+    return [place[part] for place in places if part in place]
 
 
 def said_at(draft: Draft, message: LevelMessage) -> Point | None:

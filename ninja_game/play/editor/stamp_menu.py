@@ -23,7 +23,7 @@ from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import COLUMNS, Level, ObjectSpec
 from ninja_game.view.sprites.thumbnail import thumbnail
 
-_WIDE, _HIGH, _CELL = 44.0, 28.0, 10.0  # the most room of a picture, and the largest side of a cell in it, px
+_WIDTH, _HEIGHT, _CELL = 44.0, 28.0, 10.0  # the most room of a picture, and the largest side of a cell in it, px
 
 
 STAMPS_SHOWN = 10  # the most stamps in their menu, the newest
@@ -46,7 +46,7 @@ class StampMenu(Menu):
         for picture, row in zip(self._pictures, self.widgets, strict=False):
             if picture:
                 x, y, _, h = row.area
-                (left, top), (width, height) = canvas.point(x - 13 - _WIDE / 2, y + h / 2), picture.get_size()
+                (left, top), (width, height) = canvas.point(x - 13 - _WIDTH / 2, y + h / 2), picture.get_size()
                 surface.blit(picture, (left - width // 2, top - height // 2))
 
     def _picture(self, path: Path) -> pygame.Surface | None:
@@ -62,7 +62,7 @@ class StampMenu(Menu):
         left, top, width, height = area_around(cells)
         # A far ninja, since no level is played without one; the stamp's own comes later, and is shown.
         level = Level(draft.level.tiles, (ObjectSpec(NINJA, (-400.0, -400.0)), *draft.level.objects))
-        side = self.theme.canvas.px(min(_CELL, _WIDE / width, _HIGH / height))
+        side = self.theme.canvas.px(min(_CELL, _WIDTH / width, _HEIGHT / height))
         picture = thumbnail(level, self.app.palette_in(self.mood), side * (COLUMNS + 2))
         area = picture.get_rect().clip((left * side, top * side, width * side, height * side))
         stamp_picture = pygame.Surface(area.size)
@@ -106,7 +106,8 @@ class StampCommands:
             self.app.notify(f"Kept as a stamp: {path.stem}")
 
     def _change(self, path: Path) -> None:
-        app, name, delete = self.app, path.stem, partial(self._delete, path)
+        app, name = self.app, path.stem
+        delete = partial(self._delete, path)
         ask = partial(ask_text, app, f"Rename {name}", "Name", name, "Rename", partial(self._rename, path), 40)
         question = Question(app, f"Delete the stamp {name}?", "Delete it", delete, short_path(path))
         rows: list[MenuRow] = [("Rename...", ask, ""), ("Delete...", partial(app.push, question), "")]

@@ -167,11 +167,11 @@ class RayCast(Figure):
         self.drag(x, y)
 
     def drag(self, x: float, y: float) -> None:
-        kept = self.x, self.y
+        place = self.x, self.y
         super().drag(x, y)
         if self.moves == "start":
             self.from_x, self.from_y = self.x, self.y
-            self.x, self.y = kept
+            self.x, self.y = place
 
     def nudge(self, dx: int, dy: int) -> None:
         x, y = (self.from_x, self.from_y) if self.moves == "start" else (self.x, self.y)

@@ -134,7 +134,7 @@ class Sheet:
         return self.theme.palette
 
     def text(self, text: str, x: float, y: float, *, size: float = 9, colour: Colour | None = None) -> None:
-        """A text centred at a point of the world; ``size`` in logical px of the screen."""
+        """A text centred at a point of the world. ``size``: logical px of the screen."""
         at = self.theme.canvas.logical(self.canvas.point(x, y))
         self.theme.text(
             self.surface, text, at[0], at[1] - size / 2, size=size, colour=colour, align="centre", height=1.1 * size
@@ -156,8 +156,9 @@ class Sheet:
     def tiles(self, tiles: TileMap) -> None:
         for cell, tile in enumerate(tiles.ids):
             x, y = CENTRE_X[cell], CENTRE_Y[cell]
-            seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
-            if seen and EXISTS[cell] and (corners := [(x + dx, y + dy) for dx, dy in outline(tile)]):
+            corners = [(x + dx, y + dy) for dx, dy in outline(tile)]
+            is_seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
+            if corners and is_seen and EXISTS[cell]:
                 self.canvas.polygon(self.surface, self.palette.tile, corners)
 
     def edges(self, w: World, cells: Iterable[int] = ALL_CELLS) -> None:

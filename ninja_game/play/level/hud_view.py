@@ -1,4 +1,4 @@
-"""The texts, medals and panels over a level now; ``hud`` places and draws them."""
+"""The texts, medals and panels over a level now, which ``hud`` places and draws."""
 
 from __future__ import annotations
 

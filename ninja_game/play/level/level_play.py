@@ -113,7 +113,8 @@ class LevelPlay:
         )
         messages = playthrough.messages()
         level, inputs = playthrough.beginning() if messages else (playthrough.level, b"")
-        world = self.attempt.simulation.world if level == playthrough.level else Simulation(level).world
+        is_same = level == playthrough.level
+        world = self.attempt.simulation.world if is_same else Simulation(level).world
         texts = [message.text for message in messages]
         self.things = things_at_start(level, world, texts, inputs)  #: places that a message should not cover
         self.tools = PracticeTools(self.attempt)
@@ -171,17 +172,17 @@ class LevelPlay:
 
     def placed(self, queue: MessageQueue) -> PlacedMessage | None:
         """The text of a queue where it lies; None without one, and after the end."""
-        text, is_advice = queue.text, "\n" in queue.text and queue.message is None
+        text = queue.text
+        is_advice = "\n" in text and queue.message is None
         if not text or self.phase in {Phase.DEAD, Phase.PASSED}:
             return None
-        shown = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
+        words = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
         spot = self.spots.get(queue, TextSpot())
         layout = self.playthrough.level.tiles, self.things, queue.message, spot.ninja
         # The text for a player who is stuck stays in place, too.
-        placed = placed_message(shown, *layout, of_start=queue.is_start or is_advice)
-        moves = tuple(
-            sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in text.split("\n") if is_advice
-        )
+        placed = placed_message(words, *layout, of_start=queue.is_start or is_advice)
+        lines = text.split("\n") if is_advice else []
+        moves = tuple(sum(bit for name, bit in MOVES if f"{{{name}}}" in line) for line in lines)
         return placed._replace(taken=spot.taken, moves=moves)
 
     def ninja_place(self) -> tuple[float, float]:

@@ -167,7 +167,7 @@ class LevelScreen(Screen):
         """
         playthrough, app = self.playthrough, self.app
         run = playthrough.player.catalogue.author_run(playthrough.entry)
-        seen = self.play.is_stuck or opens_author(
+        may_watch = self.play.is_stuck or opens_author(
             playthrough.entry, playthrough.player.marks.of(playthrough.entry.digest)
         )
         back = partial(self.pause, HELP_ROW * paused) if paused or self.phase is Phase.PLAY else nothing
@@ -182,7 +182,7 @@ class LevelScreen(Screen):
         skip_it = self.go_on, "The next one opens. This one counts only once you pass it"
         rows: list[MenuRow] = [
             ("Try again", self.retry, ""),
-            ("Watch how", *watch_it) if run and seen else (f"Watch how ({why})", None, ""),
+            ("Watch how", *watch_it) if run and may_watch else (f"Watch how ({why})", None, ""),
             full if app.settings.game_speed < 100 else slow,
             (_SKIP, *(skip_it if playthrough.has_next else (None, "No level comes after this one"))),
         ]

@@ -36,7 +36,7 @@ from ninja_game.ui.widgets import Button, Choice, Widget
 
 _ROW = 54
 _PICTURE_SIZE = 60
-_SIDE, SIDE_WIDTH, COMMENT_HIGH = 436, 320, 85
+_SIDE, SIDE_WIDTH, COMMENT_HEIGHT = 436, 320, 85
 _SORT_ORDERS: list[tuple[str, object]] = [
     ("Mine first", "listed"),
     ("Last changed", "changed"),
@@ -146,7 +146,7 @@ class Browser(ThumbnailScreen):
 
     def _arrange(self) -> None:
         words = self.entry_field.text.casefold().split()
-        matching = [e for e in self.entries if all(word in _searched_text(e) for word in words)]
+        matching = [entry for entry in self.entries if all(word in _searched_text(entry) for word in words)]
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),
             "changed": lambda e: 0 if e.source == GAME else -max(file_stamp(e.named.file)[1:2], default=0),
@@ -159,8 +159,10 @@ class Browser(ThumbnailScreen):
         # Matches in names come before those in comments.
         matching.sort(key=lambda e: not all(word in e.title.casefold() for word in words))
         # Daily levels have their own screen.
-        shown, known = (sum(Path(e.named.file).parent.name != DAILY for e in es) for es in (matching, self.entries))
-        self._count = f"{shown} of {known} levels"
+        counts = (
+            sum(Path(entry.named.file).parent.name != DAILY for entry in part) for part in (matching, self.entries)
+        )
+        self._count = "{} of {} levels".format(*counts)
         if matching != self.shown:
             self.shown = matching
             self.list.index = self.list.first = 0
@@ -181,13 +183,14 @@ class Browser(ThumbnailScreen):
         for button, hint in (self.change, "Open it in the editor"), (self.link, "Copy a link that opens this level"):
             button.enabled, button.hint = selected is not None, hint if selected else lock
         self.watch_best.enabled = selected is not None and selected.digest in self.best_replays
-        name, ours = self.player.settings.name, selected is not None and selected.source == GAME
-        is_own = selected is not None and not ours and (selected.source == YOURS or name == selected.named.author)
-        known = ours or bool(selected and self.player.catalogue.author_run(selected))
+        ours = selected is not None and selected.source == GAME
+        by_player = selected is not None and selected.named.author == self.player.settings.name
+        is_own = selected is not None and not ours and (selected.source == YOURS or by_player)
+        has_run = ours or bool(selected and self.player.catalogue.author_run(selected))
         opened = is_own or (selected is not None and opens_author(selected, self.marks.get(selected.digest)))
-        self.watch_author.enabled = known and opened
+        self.watch_author.enabled = has_run and opened
         unknown = "none is known: Certify, in the editor, finds one" if is_own else "none is known"
-        lock_hint = "earn a gold medal to watch it" if known else unknown
+        lock_hint = "earn a gold medal to watch it" if has_run else unknown
         self.watch_author.hint = "" if self.watch_author.enabled else lock_hint
         self.watch_best.hint = "Your best run" if self.watch_best.enabled else "You have not passed this level yet"
 
@@ -247,7 +250,7 @@ class Browser(ThumbnailScreen):
         subtitle = "    ".join(filter(None, (by, where_from(entry))))
         theme.text(surface, subtitle, _SIDE, 303, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         teaches = [f"Teaches: {entry.named.teaches}"] if entry.named.teaches else []
-        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, SIDE_WIDTH, COMMENT_HIGH), 10.5, 13.5)
+        theme.paragraph(surface, [entry.named.comment, *teaches], (_SIDE, 321, SIDE_WIDTH, COMMENT_HEIGHT), 10.5, 13.5)
         mark = self.marks.get(entry.digest)
         colour = palette.good if mark else palette.faint
         theme.text(surface, self.player.reached(entry, mark), _SIDE, 408, size=12, colour=colour, width=SIDE_WIDTH)

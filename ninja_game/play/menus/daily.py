@@ -26,7 +26,7 @@ from ninja_game.sim.level import COLUMNS, ROWS
 from ninja_game.ui.theme import Theme, wrapped
 from ninja_game.ui.widgets import Button, Widget
 
-_LEFT, _TOP, _WIDE = 44, 74, 480
+_LEFT, _TOP, _WIDTH = 44, 74, 480
 _SIDE, _SIDE_WIDTH, _WEEK = 548, 200, 272
 
 DIG_MS = 60  # ms per cell of the cave that is drawn while a level is made
@@ -68,7 +68,9 @@ class DailyScreen(ThumbnailScreen):
         self.maker: _DailyMaker | None = None
         self._shown = ""
         self._rng = Random(self.day.toordinal())  # noqa: S311 - a picture
-        self._dug, self._heading, self._dig_ms = [(16, 12)], (1, 0), 0
+        self._dug = [(16, 12)]
+        self._heading = 1, 0
+        self._dig_ms = 0
         self.play = Button((_SIDE, 390, _SIDE_WIDTH, 36), "Play", self._play)
         self.practice = Button((_SIDE, 436, _SIDE_WIDTH, 36), "Practice", lambda: self._play(practice=True))
         self.practice.hint = PRACTICE_HINT
@@ -153,25 +155,25 @@ class DailyScreen(ThumbnailScreen):
         theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", _SIDE, _TOP, size=12, colour=palette.faint)
         if entry is None:
             canvas = self.app.canvas
-            cell = _WIDE / (COLUMNS + 2)
-            canvas.fill_rect(surface, palette.tile, _LEFT, _TOP, _WIDE, _WIDE * 25 / 33, 4)
+            cell = _WIDTH / (COLUMNS + 2)
+            canvas.fill_rect(surface, palette.tile, _LEFT, _TOP, _WIDTH, _WIDTH * 25 / 33, 4)
             for column, row in set(self._dug):
                 canvas.fill_rect(surface, palette.background, _LEFT + cell * column, _TOP + cell * row, cell, cell)
             if self.maker:
-                theme.panel(surface, _LEFT + 20, _TOP + 140, _WIDE - 40, 64)
+                theme.panel(surface, _LEFT + 20, _TOP + 140, _WIDTH - 40, 64)
                 for offset, size, text in ((150, 16, "Building today's level"), (180, 11, self.maker.progress)):
-                    middle = _LEFT + _WIDE / 2
-                    theme.text(surface, text, middle, _TOP + offset, size=size, align="centre", width=_WIDE - 60)
+                    middle = _LEFT + _WIDTH / 2
+                    theme.text(surface, text, middle, _TOP + offset, size=size, align="centre", width=_WIDTH - 60)
         else:
             self._draw_entry(surface, entry)
         if self.message:
             colour = palette.bad if entry else palette.on_tile
-            for number, line in enumerate(wrapped(theme, self.message, _WIDE - 40, 11)):
+            for number, line in enumerate(wrapped(theme, self.message, _WIDTH - 40, 11)):
                 theme.text(surface, line, _LEFT + 20, _TOP + 150 + 18 * number, size=11, colour=colour)
 
     def _draw_entry(self, surface: pygame.Surface, entry: Entry) -> None:
         theme = self.app.theme
-        self.thumbnails.draw(surface, entry, _LEFT, _TOP, _WIDE)
+        self.thumbnails.draw(surface, entry, _LEFT, _TOP, _WIDTH)
         theme.text(surface, entry.title, _SIDE, _TOP + 24, size=17, bold=True, width=_SIDE_WIDTH)
         mark = self.player.marks.of(entry.digest)
         played = self.player.statistics.played(entry.digest)
@@ -187,7 +189,7 @@ class DailyScreen(ThumbnailScreen):
         self._draw_week(surface, theme)
         for number, line in enumerate(lines):
             theme.text(surface, line, _SIDE, _TOP + 60 + 20 * number, size=11, width=_SIDE_WIDTH)
-        draw_pars(surface, theme, entry.pars, mark and mark.fastest, _LEFT, _TOP + _WIDE * 25 / 33 + 12)
+        draw_pars(surface, theme, entry.pars, mark and mark.fastest, _LEFT, _TOP + _WIDTH * 25 / 33 + 12)
 
     def _draw_week(self, surface: pygame.Surface, theme: Theme) -> None:
         for place in range(7):

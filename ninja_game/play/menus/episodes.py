@@ -27,7 +27,7 @@ from ninja_game.ui.medals import MEDALS_FROM_BRONZE, draw_all_gold, draw_medal
 from ninja_game.ui.theme import Area, Theme, mixed
 from ninja_game.ui.widgets import Button, Choice, Widget
 
-_LEFT, _TOP, _WIDE, _MAX_HEIGHT = 44, 116, 318, 286
+_LEFT, _TOP, _WIDTH, _MAX_HEIGHT = 44, 116, 318, 286
 """Place and greatest height of the grid, px; cells are up to MAX_CELL px large."""
 
 MAX_CELL = 62
@@ -50,7 +50,7 @@ class Cells(ListView):
         self.heads = sorted({number // EPISODES_PER_COLUMN for number in numbers})
         lines = max((number % EPISODES_PER_COLUMN for number in numbers), default=0) + 1
         self.columns = max(1, len(self.heads))
-        self.cell_height = min(MAX_CELL, _WIDE / self.columns, _MAX_HEIGHT / lines)
+        self.cell_height = min(MAX_CELL, _WIDTH / self.columns, _MAX_HEIGHT / lines)
         self.area = _LEFT, _TOP, self.cell_height * self.columns + BAR_WIDTH + 4, self.cell_height * lines
         places = [column * EPISODES_PER_COLUMN + line for line in range(lines) for column in self.heads]
         self.numbers = [number if number in numbers else -1 for number in places]
@@ -71,7 +71,7 @@ class Cells(ListView):
                 middle = _LEFT + (place + 0.5) * size
                 theme.text(surface, name, middle, _TOP - 15, size=9, colour=colour, align="centre", width=size - 2)
             elif chosen:
-                theme.text(surface, name, _LEFT, _TOP - 15, size=10, colour=faint, width=_WIDE)
+                theme.text(surface, name, _LEFT, _TOP - 15, size=10, colour=faint, width=_WIDTH)
 
     def nudge(self, action: str) -> bool:
         """Move the selection; beyond the last episode the focus moves on instead."""
@@ -139,7 +139,7 @@ class EpisodeGrid(ThumbnailScreen):
         self.pack = self.player.catalogue.ours
         self.marks: dict[str, Mark] = {}
         self.passed: set[str] = set()
-        self.grid = Cells((_LEFT, _TOP, _WIDE, _MAX_HEIGHT), 1, self._draw_cell, self._play, opens=True)
+        self.grid = Cells((_LEFT, _TOP, _WIDTH, _MAX_HEIGHT), 1, self._draw_cell, self._play, opens=True)
         self.grid.selected = self._selected
         self.play = Button((_SIDE + 274, 64, 90, 30), "Play", lambda: self._play(self.grid.index))
         self.rows = ListView((_SIDE, 132, 364, _ROW * 5), _ROW, self._draw_row, self._trial, opens=True)
@@ -206,9 +206,9 @@ class EpisodeGrid(ThumbnailScreen):
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
-        area = _LEFT, self._below, _WIDE, 30
+        area = _LEFT, self._below, _WIDTH, 30
         self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
-        problems = problems_button(self.app, (_LEFT, 546, _WIDE, 18), lambda: self.problems)
+        problems = problems_button(self.app, (_LEFT, 546, _WIDTH, 18), lambda: self.problems)
         if self._is_lent:
             keep = Button((_SIDE + 178, 64, 90, 30), "Keep it", self._keep)
             keep.hint = "It goes among your packs, and is offered here whenever you play"
@@ -217,7 +217,7 @@ class EpisodeGrid(ThumbnailScreen):
             practice = [] if self.previews else [self.practice]
             return [self.grid, self.play, *practice, self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
-        choice = Choice((_LEFT, 62, _WIDE, 26), "", names, lambda: self.pack.key, self._set_pack)
+        choice = Choice((_LEFT, 62, _WIDTH, 26), "", names, lambda: self.pack.key, self._set_pack)
         choice.hint = "Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play"
         return [self.grid, self.play, choice, self.practice, self.rows, *problems]
 
@@ -228,7 +228,7 @@ class EpisodeGrid(ThumbnailScreen):
     def _set_pack(self, key: object) -> None:
         self._look_for_packs(str(key))
         self.grid.arrange(self.pack.episodes)
-        self.practice.area = _LEFT, self._below, _WIDE, 30
+        self.practice.area = _LEFT, self._below, _WIDTH, 30
 
     def handle(self, event: InputEvent) -> None:
         if "link" in event.pressed and self.pack.files:
@@ -264,7 +264,7 @@ class EpisodeGrid(ThumbnailScreen):
         theme, palette = self.app.theme, self.app.theme.palette
         if len(self.packs) < 2 and not self.previews:
             for line, text in enumerate(_OPENS):
-                theme.text(surface, text, _LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=_WIDE)
+                theme.text(surface, text, _LEFT, 64 + 14 * line, size=10, colour=palette.faint, width=_WIDTH)
         self.grid.draw_names(surface, theme, self.pack.columns)
         if self.previews:
             self._draw_preview(surface, theme)
@@ -297,14 +297,14 @@ class EpisodeGrid(ThumbnailScreen):
         faint = theme.palette.faint
         index = self.pack.pack.index if self.pack.pack else None
         name, by = (index.name, index.byline) if index else (self.pack.name, "")
-        theme.text(surface, shown_text(name), _LEFT, 58, size=20, bold=True, width=_WIDE)
-        theme.text(surface, shown_text(by), _LEFT, 84, size=11, width=_WIDE)
+        theme.text(surface, shown_text(name), _LEFT, 58, size=20, bold=True, width=_WIDTH)
+        theme.text(surface, shown_text(by), _LEFT, 84, size=11, width=_WIDTH)
         theme.text(surface, _PREVIEWED, _SIDE, 114, size=10, colour=faint, width=364)
         comment = shown_text(index.comment, 200) if index else ""
-        theme.paragraph(surface, [comment], (_LEFT, self._below, _WIDE, 44), 11, 14)
+        theme.paragraph(surface, [comment], (_LEFT, self._below, _WIDTH, 44), 11, 14)
         top = self._below + (50 if comment else 0)
         self._draw_total(surface, theme, top)
-        self._draw_picture(surface, top + 52, float(_WIDE))
+        self._draw_picture(surface, top + 52, float(_WIDTH))
 
     def _draw_picture(self, surface: pygame.Surface, top: float, widest: float) -> None:
         """The pack's picture, where there is room for it above the foot."""
@@ -317,7 +317,7 @@ class EpisodeGrid(ThumbnailScreen):
         total = count_results(levels, self.marks, self.passed)
         by = f" by {shown_text(self.player.settings.name)}" if self.player.settings.name else ""
         passed = f"{total.passed} of {total.levels} levels passed{by}"
-        theme.text(surface, passed, _LEFT, y, size=11, bold=True, width=_WIDE)
+        theme.text(surface, passed, _LEFT, y, size=11, bold=True, width=_WIDTH)
         x = _LEFT + 8.0
         if any(entry.pars for entry in levels):
             for medal in MEDALS_FROM_BRONZE:

@@ -80,7 +80,8 @@ class GoodLevelsScreen(ThumbnailScreen):
             px = width / 792
             x, y = middle_of((column, row))
             at = left + x * px, top + y * px
-            x, y = at[0] + (_AWAY if column < 3 else -_AWAY), at[1] + (_AWAY if row < 2 else -_AWAY)
+            x = at[0] + (_AWAY if column < 3 else -_AWAY)
+            y = at[1] + (_AWAY if row < 2 else -_AWAY)
             theme.canvas.line(surface, palette.accent, (x, y), at, 1.5)
             theme.canvas.circle(surface, palette.accent, at, 2.5)
             theme.canvas.circle(surface, palette.accent, (x, y), 9)

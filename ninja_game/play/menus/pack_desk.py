@@ -18,7 +18,7 @@ from ninja_game.levels.episodes import GAME, YOURS, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import ask_received, ask_text
-from ninja_game.play.menus.pack_shelves import HIGH, WIDE, Marks, PackCell, Rack, called
+from ninja_game.play.menus.pack_shelves import CELL_HEIGHT, CELL_WIDTH, Marks, PackCell, Rack, called
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.thumbnails import ThumbnailScreen
 from ninja_game.ui.list_view import BAR_WIDTH
@@ -52,7 +52,7 @@ class PackDesk(ThumbnailScreen):
         self.status = PackStatus(self.packer, self.player.catalogue)
         rack = partial(Rack, status=self.status, thumbnails=self.thumbnails, marked=self.marked, pull=self._pull)
         self.shelves = rack((36, 96, 0, 0), 6, choose=self.choose)
-        self.tray = rack((622, 126, WIDE + BAR_WIDTH + 24, 4 * HIGH - 28), 1, choose=self.choose)
+        self.tray = rack((622, 126, CELL_WIDTH + BAR_WIDTH + 24, 4 * CELL_HEIGHT - 28), 1, choose=self.choose)
 
     @property
     def path(self) -> Path:
@@ -98,7 +98,7 @@ class PackDesk(ThumbnailScreen):
             entries = [entry for shelf in self.sets if shelf.key == self.tray_key for entry in shelf.levels]
         goals = {"none": "take it out of its episode", "yours": "put it into your folder"}
         self.tray.empty = f"Drag a level here to {goals.get(self.tray_key, 'put it into this pack')}"
-        self.shelves.area = (36, 96, 6 * WIDE + BAR_WIDTH + 4, HIGH * min(4, len(cells) // 6))
+        self.shelves.area = (36, 96, 6 * CELL_WIDTH + BAR_WIDTH + 4, CELL_HEIGHT * min(4, len(cells) // 6))
         self.shelves.show(cells)
         self.tray.show([PackCell(None, entry) for entry in entries])
         self.marked &= {level.named.file for level in self.levels()}
@@ -346,7 +346,7 @@ class PackDesk(ThumbnailScreen):
                 if len(lifted) > 1:
                     self.theme.text(surface, called(lifted), x + 36, y + 54, size=11, bold=True, align="centre")
             else:
-                self.theme.row(surface, (x + 6, y + 6, 2 * WIDE, HIGH / 4), chosen=True, focused=True)
+                self.theme.row(surface, (x + 6, y + 6, 2 * CELL_WIDTH, CELL_HEIGHT / 4), chosen=True, focused=True)
         if landing:
             x, y, w, h = self.shelves.row_area(landing[0])
             place = x + w * landing[1] - 2 + self.shelves.shift(self.shelves.gap) / 2, y + 4, 4, h - 8

@@ -56,7 +56,7 @@ def pack_menu(desk: PackDesk) -> None:
 def pack_form(
     desk: PackDesk, pack: Pack, first: int = 0, yes: str = "OK", then: Callable[[], object] = nothing, version: str = ""
 ) -> None:
-    """Ask for the texts of the index, at first field number ``first``, with a ``version`` proposed; ``then`` go on."""
+    """Ask for the texts of the index, from field number ``first`` on, with ``version`` proposed; then call ``then``."""
     index, path = pack.index, pack.files.path
     keys = ("name", "author", "version", "comment")
     author = index.author if index.is_signed or (desk.pack and desk.pack.received) else desk.player.settings.name

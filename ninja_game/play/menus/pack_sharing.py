@@ -129,11 +129,16 @@ def prepare_shown(desk: PackDesk) -> None:
     index = pack.index
     version = desk.packer.next_version(pack)
     follows = bool(index.version) and version != index.version
-    if desk.pack.received or (index.is_signed and not follows and (index.comment or PARS in pack.files.names)):
+    is_described = bool(index.comment) or PARS in pack.files.names
+    if desk.pack.received or (index.is_signed and not follows and is_described):
         start()
-    else:
-        first = 1 if not index.is_signed else 2 if follows else 3
-        pack_form(desk, pack, first, "Make ready", start, version)
+        return
+    first = 3
+    if not index.is_signed:
+        first = 1
+    elif follows:
+        first = 2
+    pack_form(desk, pack, first, "Make ready", start, version)
 
 
 def ask_for_new_pack(desk: PackDesk) -> None:

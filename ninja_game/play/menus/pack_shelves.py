@@ -17,7 +17,7 @@ from ninja_game.ui.list_view import BAR_WIDTH, ListView
 from ninja_game.ui.medals import draw_all_gold
 from ninja_game.ui.theme import Area, Theme, wrapped
 
-WIDE, HIGH = 93, 106
+CELL_WIDTH, CELL_HEIGHT = 93, 106
 
 _GAP = 12  # px by which cells move aside for a dragged one
 PULL = 6  # px that the mouse moves with its button down before a drag begins
@@ -49,10 +49,11 @@ class Rack(ListView):
         pull: Callable[[PackCell, tuple[float, float]], object],
         choose: Callable[[PackCell], object],
     ) -> None:
-        super().__init__(area, HIGH, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
+        super().__init__(area, CELL_HEIGHT, self._draw_cell, lambda index: choose(self.cells[index]), opens=True)
         self.columns, self.status, self.thumbnails, self.pull = columns, status, thumbnails, pull
         self.cells: Sequence[PackCell] = ()
-        self.marked, self.lifted, self.gap = marked, set[str](), 0
+        self.marked, self.gap = marked, 0
+        self.lifted = set[str]()
         self._pressed = (0.0, 0.0)
         self._again = False
 
@@ -104,16 +105,16 @@ class Rack(ListView):
         x += self.shift(index)
         inner = (x + 2, y + 2, w - 4, h - 4)
         lifted = cell.level is not None and cell.level.named.file in self.lifted
-        marked = cell.level is not None and cell.level.named.file in self.marked
+        is_marked = cell.level is not None and cell.level.named.file in self.marked
         if cell.head:
             self._draw_head(surface, theme, cell, inner)
         elif cell.level and not lifted:
             theme.row(surface, inner, chosen=chosen and focused, focused=focused)
             self._draw_level(surface, theme, cell.level, x + 6, y + 6, w - 12)
-        if marked and not lifted:
+        if is_marked and not lifted:
             theme.canvas.circle(surface, theme.palette.accent, (x + 11, y + 11), 6)
         free = not (cell.head or cell.level)
-        if marked or (chosen and focused and not self.lifted):
+        if is_marked or (chosen and focused and not self.lifted):
             theme.canvas.frame_rect(surface, theme.palette.accent, *inner, 2.5, 4)
         elif lifted or free:
             theme.canvas.frame_rect(surface, theme.palette.panel_edge, *inner, 1, 4)
@@ -124,7 +125,7 @@ class Rack(ListView):
 
     def _draw_level(self, surface: pygame.Surface, theme: Theme, level: Entry, x: float, y: float, w: float) -> None:
         palette, state = theme.palette, self.status.state(level)
-        self.thumbnails.draw(surface, level, x, y, WIDE - 12)
+        self.thumbnails.draw(surface, level, x, y, CELL_WIDTH - 12)
         pars = level.pars if state not in (*NOT_CERTIFIED, NOT_FOUND) else None
         gold = pars is not None and pars.gold is not None and level.all_gold > 0
         title, width = shown_text(level.title), w - 12 * gold
@@ -137,7 +138,7 @@ class Rack(ListView):
         if pars:
             theme.text(surface, pars.grade, x + w, y + 86, size=8.5, align="right", width=40)
         if self.status.checked and level.named.file in self.status.checked.places:
-            middle = x + WIDE - 21
+            middle = x + CELL_WIDTH - 21
             theme.canvas.circle(surface, palette.panel, (middle, y + 9), 8)
             theme.text(surface, "!", middle, y + 3, size=11, bold=True, colour=palette.bad, align="centre")
 

@@ -69,11 +69,13 @@ class Packer(Aside):
         return self.saved is not None and self.text == self._result_text
 
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
-        """Make a pack ready. ``known``: problems with which the player goes on; None: new ones are asked about before.
+        """Make a pack ready. ``known``: problems with which the player goes on, and is not asked about again.
 
-        They are not asked about again.
+        With None, all problems are looked for before, and asked about.
         """
-        self._asks_first, self.path, self.is_busy, self._stopped = known is None, path, True, False
+        self._asks_first = known is None
+        self.path = path
+        self.is_busy, self._stopped = True, False
         self._know(known or ())
         self.saved = self._open_problems = None
         self._seconds = seconds
@@ -110,9 +112,9 @@ class Packer(Aside):
     def _make_ready(self, path: Path) -> ReadyPack:
         if self._asks_first:
             self._say("Looking for problems", None)
-            found = Checked.of(Pack(path), self.obstacles)
-            if self.news(found.problems):
-                return ReadyPack(found.pack, found.findings, b"", "", [])
+            checked = Checked.of(Pack(path), self.obstacles)
+            if self.news(checked.problems):
+                return ReadyPack(checked.pack, checked.findings, b"", "", [])
         jobs = max(1, cores() - 1)
         return prepare_pack(path, seconds=self._seconds, jobs=jobs, say=self._say, obstacles=self.obstacles)
 
@@ -121,7 +123,9 @@ class Packer(Aside):
             return
         text, share, start = self._step
         seconds = monotonic() - start
-        self.text = "Stopping" if self._stopped else text if share is not None else f"{text}: {seconds:.0f} s"
+        self.text = text if share is not None else f"{text}: {seconds:.0f} s"
+        if self._stopped:
+            self.text = "Stopping"
         self.share = share
         if self.job.is_idle:
             self.is_busy, self.text = False, self.job.problem
@@ -138,9 +142,9 @@ class Packer(Aside):
 
     def take_problems(self) -> ReadyPack | None:
         """The pack about whose problems the player is to be asked, once; None while they look at something else."""
-        asked = self._open_problems if self.waited_for else None
-        self._open_problems = None if asked else self._open_problems
-        return asked
+        problems = self._open_problems if self.waited_for else None
+        self._open_problems = None if problems else self._open_problems
+        return problems
 
     def publish(self, ready: ReadyPack) -> None:
         """Write the zip; copy the link if the player looks at the pack, and notify them."""
@@ -271,11 +275,13 @@ class PackStatus:
             if level.pars and (has_certificate or file.parent != (self.pack and self.pack.path)):
                 state = f"{seconds_text(level.pars.exit)} s"
             else:
-                run = self.catalogue.author_run(level)
-                vain = (level.named.level, "exit") in self.packer.obstacles
-                stopped = level.named.level in self.packer.app.solver.stopped and not self.packer.is_busy
-                untried = "stopped" if stopped else "changed" if has_certificate else "no run yet"
-                state = "certified" if run else NOT_FOUND if vain else untried
+                state = "changed" if has_certificate else "no run yet"
+                if self.catalogue.author_run(level):
+                    state = "certified"
+                elif (level.named.level, "exit") in self.packer.obstacles:
+                    state = NOT_FOUND
+                elif level.named.level in self.packer.app.solver.stopped and not self.packer.is_busy:
+                    state = "stopped"
             self._states[id(level)] = state
         return state
 

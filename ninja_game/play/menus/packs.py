@@ -16,7 +16,7 @@ from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.episodes import PREVIEW
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_list import PackList
-from ninja_game.play.menus.pack_shelves import HIGH, PackCell, Rack
+from ninja_game.play.menus.pack_shelves import CELL_HEIGHT, PackCell, Rack
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.widgets import Button, Choice, Widget
@@ -49,7 +49,7 @@ class _ShownState(NamedTuple):
 class PackScreen(PackDesk):
     """The screen of the player's packs (*Levels > Packs*): the desk, with its buttons, keys and menus."""
 
-    foot_high = 552.0
+    foot_height = 552.0
     _shown = _ShownState()
 
     def build(self) -> Sequence[Widget]:
@@ -114,7 +114,7 @@ class PackScreen(PackDesk):
     @property
     def _top(self) -> float:
         """The upper edge of the texts below the shelves, px."""
-        return 96 + HIGH * self.shelves.lines + 24 if self.pack else 396
+        return 96 + CELL_HEIGHT * self.shelves.lines + 24 if self.pack else 396
 
     @property
     def notice_room(self) -> tuple[float, float]:
@@ -161,17 +161,17 @@ class PackScreen(PackDesk):
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
         packer, before = self.packer, self._shown
-        self._shown = shown = _ShownState(
+        self._shown = state = _ShownState(
             packer.is_busy, len(packer.obstacles), self.zipped, packer.text, self.app.notice
         )
-        if shown[:3] != before[:3]:
+        if state[:3] != before[:3]:
             self.enter()
-        elif shown != before:
+        elif state != before:
             # A new notice may be about a certificate that a search of the editor has found.
-            self.read_packs(news=shown.notice in ("", before.notice))
+            self.read_packs(news=state.notice in ("", before.notice))
         if ready := packer.take_problems():
             pack_sharing.ask_about(self, ready)
-        self.redraw = self.status.update() or shown != before or self.redraw
+        self.redraw = self.status.update() or state != before or self.redraw
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         self.shelves.hint = self.tray.hint = _MOVES if self.moving else _DRAG
@@ -188,8 +188,8 @@ class PackScreen(PackDesk):
             theme.paragraph(surface, step, place, 13, 20, align="centre")
         elif not packer.is_busy:
             texts += step[:1]
-        foot = (36, 524, 720 if packer.is_busy else 516, 41)
-        theme.paragraph(surface, texts, foot, 10, 13.5, colour=faint)
+        area = (36, 524, 720 if packer.is_busy else 516, 41)
+        theme.paragraph(surface, texts, area, 10, 13.5, colour=faint)
         if packer.is_busy and packer.share is not None:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)

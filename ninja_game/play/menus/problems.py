@@ -55,17 +55,16 @@ class ProblemsScreen(MenuScreen):
         self.buttons["search"].hint = "For the run that is missing: the solver had less time before"
 
     def build(self) -> Sequence[Widget]:
-        known = self._find()
-        self._waited_ms, self.list.empty = (
-            (1, "Looking for problems") if known is None else (0, "There are no problems")
-        )
+        problems = self._find()
+        self._waited_ms = int(problems is None)
+        self.list.empty = "Looking for problems" if problems is None else "There are no problems"
         if not self.problems:
-            self.list.index = next((k for k, problem in enumerate(known or ()) if not problem.accepted), 0)
-        self.problems = self.problems if known is None else known
+            self.list.index = next((k for k, problem in enumerate(problems or ()) if not problem.accepted), 0)
+        self.problems = self.problems if problems is None else problems
         self.list.fill(self.problems)
         self._offer()
-        offered = (button for name, button in self.buttons.items() if any(getattr(row, name) for row in self.problems))
-        return [self.list, *offered]
+        offered = {name for name in self.buttons for problem in self.problems if getattr(problem, name)}
+        return [self.list, *(button for name, button in self.buttons.items() if name in offered)]
 
     def update(self, real_ms: int) -> None:
         super().update(real_ms)
@@ -112,7 +111,8 @@ class ProblemsScreen(MenuScreen):
         theme.panel(surface, 44, 418, 704, 104)
         texts = [f"{shown_text(problem.text, _MAX_TEXT)}.", problem.hint] if problem.text else []
         theme.paragraph(surface, texts, (54, 426, 684, 90), 11, 14)
-        accepted, steps = (sum(bool(getattr(other, kind)) for other in self.problems) for kind in ("accepted", "step"))
+        accepted = sum(bool(problem.accepted) for problem in self.problems)
+        steps = sum(bool(problem.step) for problem in self.problems)
         count = counted(len(self.problems) - accepted - steps, "problem")
         count += f", {accepted} accepted" if accepted else ""
         text = f"Looking for problems: {self._waited_ms // 1000} s" if self._waited_ms else count

@@ -164,10 +164,10 @@ class BindingTable(ListView):
         inputs = self.inputs(action)
         for slot in range(self.slots):
             x = left + slot * width
-            here = focused and slot == self.slot
-            if slot > len(inputs) - 1 + focused and not here:
+            is_focused = focused and slot == self.slot
+            if slot > len(inputs) - 1 + focused and not is_focused:
                 continue
-            theme.row(surface, (x + 2, y + 2, width - 4, h - 4), chosen=here, focused=here, radius=3)
+            theme.row(surface, (x + 2, y + 2, width - 4, h - 4), chosen=is_focused, focused=is_focused, radius=3)
             if slot < len(inputs):
                 text = input_label(self.device, inputs[slot])
                 theme.text(surface, text, x + width / 2, top + 0.5, size=10, align="centre", width=width - 10)

@@ -105,8 +105,8 @@ class ReplaysScreen(MenuScreen):
 
     def _arrange(self) -> None:
         files = [row for row in self._files if has_words(self._words, row.text, row.player, row.result, row.when)]
-        shown = {"yours": self._saved, "others": files}.get(self.shown_owner, [*self._saved, *files])
-        self.rows = self.arranged(shown)
+        replays = {"yours": self._saved, "others": files}.get(self.shown_owner, [*self._saved, *files])
+        self.rows = self.arranged(replays)
         self.list.empty = NO_MATCH if self._words or self.shown_owner != "all" else self.empty
         self.list.fill(self.rows)
 
@@ -141,7 +141,7 @@ class ReplaysScreen(MenuScreen):
         return [file for file in bundled_replays() if file.name.partition(".")[0] in opened]
 
     def _file_rows(self) -> Iterator[list[ReplayRow]]:
-        seen = set[tuple[object, ...]]()
+        looks = set[tuple[object, ...]]()
         for when, files in self.places():
             for file in files:
                 if isinstance(file, Skipped):
@@ -154,8 +154,8 @@ class ReplaysScreen(MenuScreen):
                     continue
                 # An author's run for the exit may be the one for all gold too.
                 read = (_row_of_recording(recording, when) for recording in recordings if self.lists(recording))
-                rows = [row for row in read if _looks(row) not in seen]
-                seen.update(map(_looks, rows))
+                rows = [row for row in read if _looks(row) not in looks]
+                looks.update(map(_looks, rows))
                 yield rows
                 if len(self._files) > FILES_SHOWN:
                     break
@@ -266,8 +266,8 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
 
 def result_of(outcome: str, gold: int, final_tick: int, all_gold: int = 0) -> str:
     """The time of a passed run; of any other one its outcome and time."""
-    taken = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
-    result = taken if outcome == "exit" else _OUTCOMES[outcome]
+    at_exit = "all gold" if gold == all_gold > 0 else f"{gold} gold" if gold else "exit"
+    result = at_exit if outcome == "exit" else _OUTCOMES[outcome]
     return f"{result}, {seconds_text(final_tick + (outcome == 'running'))} s"
 
 

@@ -115,12 +115,12 @@ class SettingsScreen(ThumbnailScreen):
 
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
-        known = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
+        unlocked = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
         named = [(name.replace("-", " ").title(), name) for name in PALETTES]
         palettes = [("By column (default)", BY_COLUMN), *named]
-        colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:known]
+        colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:unlocked]
         looks = "Classic is plain grey. Contrast and Safe mark everything deadly with spikes"
-        more = "Finish a whole column of episodes for more" if known < len(NINJA_COLOURS) else ""
+        more = "Finish a whole column of episodes for more" if unlocked < len(NINJA_COLOURS) else ""
         return [
             self._choice("Palette", "palette", palettes, looks),
             self._choice("Ninja colour", "ninja_colour", colours, more),

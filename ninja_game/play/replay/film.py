@@ -107,7 +107,8 @@ def section_of(films: Sequence[Film], first: int, last: int | None) -> list[Film
     sections, before = [], 0
     for film in films:
         count = len(film.moments)
-        start, end = max(0, first - before), count - 1 if last is None else min(count - 1, last - before)
+        start = max(0, first - before)
+        end = count - 1 if last is None else min(count - 1, last - before)
         if start <= end:
             # `known_moments` spares a second simulation of the runs.
             sections.append(replace(film, first=start, last=end, known_moments=film.moments[start : end + 1]))
@@ -144,7 +145,8 @@ class _Panel:
             covered = hud.time_bar(surface, run.lifetime + GOLD_BONUS * simulation.gold - self.time)
         else:
             covered = [hud.label(surface, self.title, self.letters)]
-        words, width = [self.title] if run.episode else [], 670 if self.film.keys else 744
+        words = [self.title] if run.episode else []
+        width = 670 if self.film.keys else 744
         if self.film.splits:
             words.append(f"{seconds_text(self.time)} s")
             texts = [text for tick, text in self.splits if tick < simulation.tick][-SHOWN_SPLITS:]
@@ -167,8 +169,8 @@ def split_texts(own: RunSplits, others: Sequence[RunSplits]) -> list[tuple[int, 
     for split in own.splits:
         words = [split.name]
         for other, name in zip(others, names, strict=True):
-            there = other.by_key.get(split.key)
-            words.append(f"{name} {there.tick - split.tick:+d}" if there else f"{name} never")
+            other_split = other.by_key.get(split.key)
+            words.append(f"{name} {other_split.tick - split.tick:+d}" if other_split else f"{name} never")
         texts.append((split.tick, ", ".join(words)))
     return texts
 

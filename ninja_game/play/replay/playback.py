@@ -187,7 +187,7 @@ def names_of(runs: Sequence[Recording]) -> list[str]:
 
 
 def ghosts_of(runs: Sequence[Recording], numbers: Sequence[int] = (), *, alone: bool = True) -> list[Ghost]:
-    """Ghosts of runs, each with its name and a colour of its own; ``alone``: as of Ghost.
+    """Ghosts of runs, each with its name and a colour of its own; ``alone``: as in Ghost.
 
     ``numbers``: of their colours, such as those in a picture of the board; without them in their order.
     """

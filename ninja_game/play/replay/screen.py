@@ -47,7 +47,7 @@ class ReplayScreen(Screen):
     ``end`` is the last tick of the recording; seeking far ahead takes several turns.
     """
 
-    foot_high = 26.0  #: height of the bar, logical px
+    foot_height = 26.0  #: height of the bar, logical px
 
     def __init__(
         self, app: App, runs: Sequence[Recording], colours: Sequence[int] = (), *, editable: bool = True

@@ -71,7 +71,7 @@ class Results:
     def try_all(self, keys: Keys, *, own_route: bool = True) -> Trials:
         """Try keys, (ticks, worlds), and keep the good ones. ``going`` then tells whether to continue.
 
-        ``own_route``: as of SpanResult.
+        ``own_route``: as in SpanResult.
         """
         trials = self.worlds.try_all(keys)
         for index in trials.order[:KEPT]:

@@ -316,7 +316,7 @@ class SpanWorlds:
 
 
 def own_tick(task: SpanTask) -> int | None:
-    """The tick after which the run itself reaches the goal, in the span or behind it; None: it does not."""
+    """The tick after which the run itself reaches the goal, in the span or behind it; None if it never does."""
     last = min(task.first + MAX_SPAN, max(task.last, len(task.inputs)))
     whole = replace(task, last=last, measure="", rest=False)
     ticks = int(SpanWorlds(whole, 1, threads=1).try_all(whole.base[:, np.newaxis]).ticks[0])

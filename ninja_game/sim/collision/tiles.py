@@ -43,7 +43,7 @@ NORMAL_X = [0.0, 0.0, *(sign[0] * _NORMALS.get(family, (0.0, 0.0))[0] for family
 NORMAL_Y = [0.0, 0.0, *(sign[1] * _NORMALS.get(family, (0.0, 0.0))[1] for family, sign in _ORIENTED)]
 NORMAL_X += [*(sign[0] for sign in _HALF_SIGNS), 0.0, 0.0]
 NORMAL_Y += [*(sign[1] for sign in _HALF_SIGNS), 0.0, 0.0]
-"""Per tile id: class, signs σ of the open side, unit surface normal n."""
+"""The tables from SHAPE on, per tile id: class, signs σ of the open side, unit surface normal n."""
 
 # Surface end points T (towards the open y side) and S (towards the open x side), in units of σ·12 px (world.md §2.2).
 _T = {SLOPE_45: (-1, 1), THIN_22: (-1, 0), THICK_22: (-1, 1), THIN_67: (-1, 1), THICK_67: (0, 1)}
@@ -60,7 +60,8 @@ def _offsets(points: dict[int, tuple[int, int]], axis: int) -> list[float]:
 T_X, T_Y = _offsets(_T, 0), _offsets(_T, 1)
 S_X, S_Y = _offsets(_S, 0), _offsets(_S, 1)
 ANCHOR_X, ANCHOR_Y = _offsets(_ANCHOR, 0), _offsets(_ANCHOR, 1)
-"""Per tile id: T, S and the anchor A of box tests and point queries (world.md §5.2), px from the cell's centre."""
+"""The tables from T_X on, per tile id: T, S and the anchor A of box tests and point queries (world.md §5.2), px from
+the cell's centre."""
 
 # Faces and edge states (world.md §3).
 NO_FACE, PARTIAL_FACE, FULL_FACE = 0, 1, 2
@@ -99,7 +100,10 @@ CENTRE_Y = [0.0] * (GRID_CELLS)
 COLUMN = [0] * (GRID_CELLS)
 ROW = [0] * (GRID_CELLS)
 EXISTS = [0] * (GRID_CELLS)
-"""Per grid index: centre in px, column, row, 1 for a cell of the world. Index 0 (no cell) has zeros (objects.md §1)."""
+"""The five tables above, per grid index: centre in px, column, row, 1 for a cell of the world.
+
+Index 0 (no cell) has zeros (objects.md §1).
+"""
 for _row in range(GRID_ROWS):
     for _column in range(GRID_COLUMNS):
         _cell = (_row + 1) * STRIDE + _column + 1

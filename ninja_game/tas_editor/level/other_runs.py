@@ -90,10 +90,10 @@ class OtherRuns:
         """
         other, tick = self.chosen, self.editor.cursor
         if other is not None and tick <= self.editor.session.timeline.simulated_until:
-            there = self._nearest(other, tick)
-            keys = [other.track.keys_at(k) for k in range(there, len(other.track))]
-            what = f"From tick {tick} on {other.name} from its tick {there} on"
-            self._join(lambda track: track.replaced(tick, max(tick, len(track)), keys), other, tick, there, what, tick)
+            theirs = self._nearest(other, tick)
+            keys = [other.track.keys_at(k) for k in range(theirs, len(other.track))]
+            what = f"From tick {tick} on {other.name} from its tick {theirs} on"
+            self._join(lambda track: track.replaced(tick, max(tick, len(track)), keys), other, tick, theirs, what, tick)
 
     def splice_start(self) -> None:
         """Replace all ticks before the cursor by the other run's, up to where its ninja was nearest to ours."""
@@ -101,27 +101,27 @@ class OtherRuns:
         if other is not None and not tick:
             editor.app.notify("No tick is before this one: go to where your own run goes on")
         elif other is not None and tick <= editor.session.timeline.simulated_until:
-            there = self._nearest(other, tick)
-            keys = [other.track.keys_at(k) for k in range(there)]
-            what = f"Up to tick {there - 1} {other.name}, then this run from its tick {tick} on"
-            self._join(lambda track: track.replaced(0, tick, keys), other, tick, there, what, there)
+            theirs = self._nearest(other, tick)
+            keys = [other.track.keys_at(k) for k in range(theirs)]
+            what = f"Up to tick {theirs - 1} {other.name}, then this run from its tick {tick} on"
+            self._join(lambda track: track.replaced(0, tick, keys), other, tick, theirs, what, theirs)
 
     def _nearest(self, other: OtherRun, tick: int) -> int:
         return nearest_state(self.editor.session.timeline.trajectory().positions, tick, other.trajectory.positions)
 
     def _join(
-        self, make: Callable[[InputTrack], InputTrack], other: OtherRun, tick: int, there: int, what: str, at: int
+        self, make: Callable[[InputTrack], InputTrack], other: OtherRun, tick: int, theirs: int, what: str, at: int
     ) -> None:
-        """Make an edit that joins two runs, before ``tick`` of ours and ``there`` of the other one; tell the gap.
+        """Make an edit that joins two runs, before ``tick`` of ours and ``theirs`` of the other one; tell the gap.
 
         ``at``: the joint in the new run; up to a death behind it the ticks are selected, to be searched.
         """
         editor, timeline = self.editor, self.editor.session.timeline
         gap = "its start"
         if tick:
-            beside = Timeline(timeline.level, other.track.inputs[:there], body=timeline.body, memory=timeline.memory)
-            beside.ensure(there - 1)
-            gap = difference_text(timeline.world(tick - 1), beside.world(there - 1))
+            beside = Timeline(timeline.level, other.track.inputs[:theirs], body=timeline.body, memory=timeline.memory)
+            beside.ensure(theirs - 1)
+            gap = difference_text(timeline.world(tick - 1), beside.world(theirs - 1))
         if editor.edit_selected(make, other.made):
             timeline.simulate(len(timeline))
             end, outcome = timeline.end
@@ -146,8 +146,8 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
 def _free_name(recording: Recording, origin: Recording, taken: set[str]) -> str:
     """A unique name: its author, or its file and number, or its name."""
     # Records of N are often many by one author: their files and numbers tell them apart.
-    known = recording.whose if recording.player != origin.author else recording.place or recording.name
-    return unused_name(known or "another run", taken)
+    name = recording.whose if recording.player != origin.author else recording.place or recording.name
+    return unused_name(name or "another run", taken)
 
 
 class OtherRunScreen(ReplaysScreen):

@@ -42,9 +42,9 @@ def nearest_tick(positions: paths.Positions, x: float, y: float, cursor: int, *,
     None if it was never near, unless the mouse is ``dragged``.
     """
     first, last = paths.shown_span(cursor)
-    shown = positions[first:last] if first < len(positions) else positions
+    in_span = positions[first:last] if first < len(positions) else positions
     first = first if first < len(positions) else 0
-    far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
+    far = np.hypot(in_span[:, 0] - x, in_span[:, 1] - y)
     if dragged:
         far += np.minimum(np.abs(np.arange(len(far)) + first - cursor), _LEAP)
     return first + int(np.argmin(far)) if dragged or far.min() < _NEAR else None
@@ -85,20 +85,21 @@ class LevelPart(TasPart):
         self._followed: Point = (0.0, 0.0)
 
     def commands(self) -> Commands:
-        playing, taken = self.playing, self.take_over
+        playing, take_over = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
             "ghosts": self._switch_ghosts,
             "whole_level": self.picture.camera.show_all, **self.others.commands(),
             **{name: partial(self.picture.overlays.toggle, name) for name in OVERLAY_ACTIONS},
         }  # fmt: skip
-        if taken.on:
+        if take_over.on:
             return {
-                "play": taken.pause, "step": taken.step, "step_back": taken.step_back, "take_over": taken.end, **shared
+                "play": take_over.pause, "step": take_over.step, "step_back": take_over.step_back,
+                "take_over": take_over.end, **shared,
             }  # fmt: skip
         return {
             "play": playing.toggle, "step": lambda: playing.step(1), "step_back": lambda: playing.step(-1),
-            "take_over": taken.begin, **shared,
+            "take_over": take_over.begin, **shared,
         }  # fmt: skip
 
     def _switch_ghosts(self) -> None:
@@ -125,11 +126,11 @@ class LevelPart(TasPart):
         self.take_over.end()
 
     def capture(self, event: InputEvent) -> bool:
-        taken = self.take_over
-        if taken.on:
+        take_over = self.take_over
+        if take_over.on:
             if event.raw.type == pygame.WINDOWFOCUSLOST:
-                taken.stand_still()
-            return event.raw.type == pygame.MOUSEBUTTONDOWN or taken.captures(event)
+                take_over.stand_still()
+            return event.raw.type == pygame.MOUSEBUTTONDOWN or take_over.captures(event)
         if self.playing.on and event.source == ("keys", "escape"):
             self.playing.stop()
             return True
@@ -199,15 +200,15 @@ class LevelPart(TasPart):
     def _present(self) -> paths.Positions:
         """The ninja's place after each simulated tick."""
         timeline = self.editor.session.timeline
-        known = timeline.inputs, timeline.simulated_until
-        if known != self._known:
-            self._known, self._positions = known, timeline.positions
+        state = timeline.inputs, timeline.simulated_until
+        if state != self._known:
+            self._known, self._positions = state, timeline.positions
         return self._positions
 
     def _follow_others(self, positions: paths.Positions) -> list[paths.OtherRunPath]:
         """Update the paths of other runs, and of the run before the last edit where it differs; and their ghosts."""
         editor = self.editor
-        kept, self._ghosts = self._ghosts, {}
+        ghosts, self._ghosts = self._ghosts, {}
         if not editor.ghosts:
             self.picture.follow([])
             return []
@@ -218,9 +219,9 @@ class LevelPart(TasPart):
         before = editor.session.before
         at = paths.first_other_place(positions, before.positions)
         if at <= min(editor.cursor, len(before) - 1, len(positions) - 1):
-            self._ghosts[before] = kept.get(before) or RunGhost(before)
+            self._ghosts[before] = ghosts.get(before) or RunGhost(before)
         for run, colour in runs:
-            self._ghosts[run.trajectory] = kept.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
+            self._ghosts[run.trajectory] = ghosts.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
         self.picture.follow(self.ghosts)
         # During play by hand the other run is not shortened at each tick.
         first, last = paths.shown_span(editor.cursor)
@@ -233,8 +234,11 @@ class LevelPart(TasPart):
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         take_over = self.take_over
         if take_over.on:
-            now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
-            go_on = "" if take_over.waiting else " Space: go on;" if take_over.still else " Space: pause;"
+            now, go_on = "your keys", " Space: pause;"
+            if take_over.waiting:
+                now, go_on = "press a key to begin", ""
+            elif take_over.still:
+                now, go_on = "tick by tick", " Space: go on;"
             text = f"Taken over: {now}. Enter: end;{go_on} . and ,: step"
         elif self.playing.on:
             text = "Playing. Space: stop"

@@ -72,8 +72,8 @@ class LevelPaths:
         return length * self.theme.canvas.scale / self.canvas.scale
 
     def _put(self, surface: pygame.Surface, layer: pygame.Surface, covered: pygame.Rect) -> None:
-        seen = covered.clip(self.canvas.stage)
-        surface.blit(layer, seen, seen)
+        area = covered.clip(self.canvas.stage)
+        surface.blit(layer, area, area)
 
     def draw_beside(self, surface: pygame.Surface, paths: Sequence[OtherRunPath]) -> None:
         """Begin a picture, with the other runs."""
@@ -83,9 +83,9 @@ class LevelPaths:
             self._under.fill((0, 0, 0, 0), self._covered)
             drawn = []
             for path in paths:
-                shown = path.trajectory.positions[path.first : path.last]
+                positions = path.trajectory.positions[path.first : path.last]
                 colour = with_alpha(path.colour, path.alpha)
-                drawn.append(draw_path(self._under, self.canvas, shown, colour, self._px(_THIN)))
+                drawn.append(draw_path(self._under, self.canvas, positions, colour, self._px(_THIN)))
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)
 
@@ -108,12 +108,12 @@ class LevelPaths:
 
     def _extend(self, positions: Positions) -> None:
         """Show this path of the run; the part in common with the last one is kept."""
-        known = len(self._drawn)
-        if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
+        count = len(self._drawn)
+        if count > len(positions) or not np.array_equal(self._drawn, positions[:count]):
             self._present.fill((0, 0, 0, 0), self._present_covered)
-            self._present_covered, known = pygame.Rect(0, 0, 0, 0), 0
+            self._present_covered, count = pygame.Rect(0, 0, 0, 0), 0
         colour = with_alpha(self.theme.palette.accent, FAINT)
-        added = positions[max(0, known - 1) :]
+        added = positions[max(0, count - 1) :]
         rect = draw_path(self._present, self.canvas, added, colour, self._px(_THIN))
         self._present_covered = union_of([self._present_covered, rect])
         self._drawn = positions
@@ -175,8 +175,8 @@ class LevelPaths:
 
 def union_of(rects: Sequence[pygame.Rect]) -> pygame.Rect:
     """The smallest rectangle around all non-empty ones."""
-    known = [rect for rect in rects if rect]
-    return known[0].unionall(known) if known else pygame.Rect(0, 0, 0, 0)
+    drawn = [rect for rect in rects if rect]
+    return drawn[0].unionall(drawn) if drawn else pygame.Rect(0, 0, 0, 0)
 
 
 def first_other_place(ours: Positions, theirs: Positions) -> int:

@@ -195,7 +195,7 @@ class RollCommands:
 
     def name_tick(self) -> None:
         editor, tick = self._editor, self._editor.cursor
-        name = next((name for marked, name in editor.track.markers if marked == tick), "")
+        name = next((name for marker, name in editor.track.markers if marker == tick), "")
         named = partial(self.put_name, tick)
         ask_text(editor.app, f"Tick {tick}", "Name or comment (empty removes it)", name, "Name it", named)
 

@@ -203,16 +203,16 @@ def row_text(row: RowFacts, *, numbers: bool) -> str:
     name = f"#{row.name}  " if row.name else ""
     if row.values is None:
         return f"{name}{row.tick}: not simulated yet"
-    seen = row.values
+    values = row.values
     if numbers:
-        places = "  ".join(f"{key} {getattr(seen, key)!r}" for key in ("x", "y", "vx", "vy"))
+        places = "  ".join(f"{key} {getattr(values, key)!r}" for key in ("x", "y", "vx", "vy"))
         events = row.events.replace(" ", ", ").replace("died", f"died: {row.death}")
         return f"{name}{row.tick}:  {places}  {events}"
     touched = [
         word
         for bit, word in ((FLOOR, "on a floor"), (WALL_LEFT, "wall at the left"), (WALL_RIGHT, "wall at the right"))
-        if seen.contacts & bit
+        if values.contacts & bit
     ]
-    words = [STATE_NAMES[seen.state], f"jump timer {seen.jump_timer}", *touched, f"gold {seen.gold}"]
-    far = f", {seen.exit!r} px to the exit's disc" if np.isfinite(seen.exit) else ""
+    words = [STATE_NAMES[values.state], f"jump timer {values.jump_timer}", *touched, f"gold {values.gold}"]
+    far = f", {values.exit!r} px to the exit's disc" if np.isfinite(values.exit) else ""
     return f"{name}{row.tick}:  {', '.join(words)}{far}"

@@ -265,10 +265,11 @@ class ScrollBar:
         self._marks: list[tuple[int, str]] = []
 
     def _places(self) -> list[tuple[int, str]]:
+        """The marked ticks, with their colours' roles in the palette."""
         timeline, track = self._editor.session.timeline, self._editor.track
-        known = track, timeline.simulated_until
-        if known != self._known:
-            self._known = known
+        state = track, timeline.simulated_until
+        if state != self._known:
+            self._known = state
             end, outcome = timeline.end
             roles = (("gold-taken", "gold"), ("exit-opened", "exit"))
             self._marks = [
@@ -291,8 +292,8 @@ class ScrollBar:
             return bar.top + min(bar.height - 1, tick * bar.height // ticks)
 
         surface.fill(mixed(palette.panel, palette.tile, 0.45), bar)
-        known = at(editor.session.timeline.simulated_until) - bar.top
-        surface.fill(mixed(palette.panel, palette.good, 0.17), (bar.left, bar.top, bar.width, known))
+        height = at(editor.session.timeline.simulated_until) - bar.top
+        surface.fill(mixed(palette.panel, palette.good, 0.17), (bar.left, bar.top, bar.width, height))
         first, last = at(top), at(top + layout.rows)
         window = pygame.Rect(bar.left, first, bar.width, max(theme.canvas.px(6), last - first))
         surface.fill(mixed(palette.panel, palette.tile, 0.6), window)
@@ -301,9 +302,9 @@ class ScrollBar:
             surface.fill(palette.bar_full, (bar.left, at(begin), bar.width // 2, max(1, at(behind) - at(begin))))
         other = compared_run(editor)
         if other is not None:
-            wide, colour = bar.width // 4, other.colour(palette)
+            width, colour = bar.width // 4, other.colour(palette)
             for y in different_rows(editor.track.inputs, other.track.inputs, ticks, bar.height):
-                surface.fill(colour, (bar.right - wide, bar.top + y, wide, 1))
+                surface.fill(colour, (bar.right - width, bar.top + y, width, 1))
         thick = theme.canvas.px(1.5)
         for tick, role in self._places():
             surface.fill(getattr(palette, role), (bar.left + bar.width // 4, at(tick), bar.width, thick))

@@ -85,15 +85,17 @@ class RollLayout:
 def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout:
     """Heads, rows and scroll bar in an area, logical px. All rows have the same height, whole px."""
     whole = canvas.rect(*area)
-    head, row, bar = canvas.px(HEAD), max(6, int(_ROW * canvas.scale)), canvas.px(_BAR)
+    head, bar = canvas.px(HEAD), canvas.px(_BAR)
+    row = max(6, int(_ROW * canvas.scale))
     rows = max(1, (whole.height - head) // row)
     body = pygame.Rect(whole.left, whole.top + head, whole.width - bar, rows * row)
-    shown = [column for column in ROLL_COLUMNS if column.name not in hidden]
-    free = area[2] - _BAR - sum(column.width for column in shown)
+    columns = [column for column in ROLL_COLUMNS if column.name not in hidden]
+    free = area[2] - _BAR - sum(column.width for column in columns)
     places, x = [], 0.0
-    for column in shown:
+    for column in columns:
         left, x = x, x + (column.width or free)
-        first, behind = round(left * canvas.scale), min(round(x * canvas.scale), body.width)
+        first = round(left * canvas.scale)
+        behind = min(round(x * canvas.scale), body.width)
         places.append(_Place(column, whole.left + first, behind - first))
     heads = pygame.Rect(whole.left, whole.top, whole.width, head)
     side = pygame.Rect(body.right, body.top, whole.right - body.right, whole.height - head)
@@ -165,12 +167,14 @@ class Digits:
         key = int(colour)
         if key not in self._pictures:
             self._pictures[key] = self._characters(colour)
-        characters, x, made = self._pictures[key], right + 0.5, []
+        characters = self._pictures[key]
+        blits: list[Blit] = []
+        x = right + 0.5
         for character in reversed(text):
             picture, width = characters[character]
             x -= width
-            made.append((picture, (int(x), y)))
-        return made
+            blits.append((picture, (int(x), y)))
+        return blits
 
 
 _SIZE = 8.0  # size of the letters, logical px
@@ -250,14 +254,14 @@ class RowSheet:
         if kind not in self._grounds:
             palette, layout = self.theme.palette, self.layout
             colour, ink = _inks(palette, row)
-            known = colour if row.values is None else mixed(colour, palette.good, 0.17)
+            ground_colour = colour if row.values is None else mixed(colour, palette.good, 0.17)
             line = mixed(colour, palette.panel_edge, 0.55)
             ground = pygame.Surface((layout.body.width, layout.row), 0, self._picture)
             ground.fill(colour)
             for place in layout.places:
                 left = place.left - layout.body.left
                 if place.column.key or place.column.name == "tick":
-                    ground.fill(known, (left, 0, place.width, layout.row))
+                    ground.fill(ground_colour, (left, 0, place.width, layout.row))
                 ground.fill(line, (left, 0, 1, layout.row))
             if row.tick % 10 == 0:
                 ground.fill(line, (0, 0, layout.body.width, 1))
@@ -269,7 +273,8 @@ class RowSheet:
         if not row.keys & key:
             return
         begins = not row.before & key
-        margin, gap = max(1, height // 8), max(1, height // 11) if begins else 0
+        margin = max(1, height // 8)
+        gap = max(1, height // 11) if begins else 0
         colour = palette.accent if key == JUMP_HELD else palette.switch
         box = (left + 1 + margin, y + gap, place.width - 2 * margin - 1, height - gap)
         self._picture.fill(mixed(colour, line, 0.35) if row.over else colour, box)

@@ -40,6 +40,10 @@ _METHODS = (
 )
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
+_ORDER_HINT = "Best is what reaches the goal first, or has the most or least of the value beside this"
+_REST_HINT = "What follows the goal in the run is played, too, and must still reach the exit"
+_METHOD_HINT = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
+_RESULT_HINT = "Under the mouse: its path in the level; a click puts it into the run"
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
 _LEFT = 14  # start of a result's first cell from the left of its row, px
 _COLUMNS = (228, 180, 120)  # starts of the others from its right
@@ -78,6 +82,15 @@ class _Preset(NamedTuple):
     goal: SpanGoal
 
 
+class _Line(NamedTuple):
+    """Widgets side by side in the form, px."""
+
+    top: float
+    height: float
+    widgets: Sequence[Widget | None]  #: None: a gap
+    widths: Sequence[float]  #: 0: what the others leave
+
+
 class SearchTab(Tab):
     """The form of a span search (goal, measure, method), its progress, and its results to put into the run."""
 
@@ -97,35 +110,29 @@ class SearchTab(Tab):
         self.proposed: SpanPieces | None = None
         self.earlier: list[tuple[SpanResults, SpanResult]] = []
         self._rows: list[tuple[SpanResults, SpanResult] | RunPiece] = []
-        fields = ("x > 400, taken(12), distance(300, 200) < 6 ...", "speed; vx, y, gold ...")
-        self.goal, self.measure = (
-            EntryField(prompt, self.start, longest=_MAX_FORMULA, hint=_NAMES, put=self._typed) for prompt in fields
-        )
+        formula = partial(EntryField, enter=self.start, longest=_MAX_FORMULA, hint=_NAMES, put=self._typed)
+        self.goal = formula("x > 400, taken(12), distance(300, 200) < 6 ...")
+        self.measure = formula("speed; vx, y, gold ...")
         selected = Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL)
         presets = Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with")
-        hint = "Best is what reaches the goal first, or has the most or least of the value beside this"
-        order = Choice(UNPLACED, "", _ORDERS, lambda: self.order, self.set_order, hint=hint)
-        hint = "What follows the goal in the run is played, too, and must still reach the exit"
-        rest = Choice(UNPLACED, "", _RESTS, lambda: self.rest, self.set_rest, hint=hint)
-        hint = "Beam: many states at once; small changes: of the keys there; all keys: short spans only"
-        method = Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method, hint=hint)
+        order = Choice(UNPLACED, "", _ORDERS, lambda: self.order, self.set_order, hint=_ORDER_HINT)
+        rest = Choice(UNPLACED, "", _RESTS, lambda: self.rest, self.set_rest, hint=_REST_HINT)
+        method = Choice(UNPLACED, "", _METHODS, lambda: self.method, self._set_method, hint=_METHOD_HINT)
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
-        hint = "Under the mouse: its path in the level; a click puts it into the run"
-        self.list = Rows(self._draw_row, self._use_row, keeps=False, hint=hint)
-        #: Its lines: top and height, px; widgets, None: a gap; their widths, px, 0: what the others leave
-        self._lines: tuple[tuple[float, float, Sequence[Widget | None], Sequence[float]], ...] = (
-            (4, 18, (None, selected, presets), (0, 96, 78)),
-            (25, 18, (None, self.goal), (32, 0)),
-            (46, 18, (order, self.measure, rest), (118, 0, 146)),
-            (67, 18, (method, self._button), (150, 58)),
-            (86, 13, (None, self._forget), (0, 76)),
+        self.list = Rows(self._draw_row, self._use_row, keeps=False, hint=_RESULT_HINT)
+        self._lines = (
+            _Line(4, 18, (None, selected, presets), (0, 96, 78)),
+            _Line(25, 18, (None, self.goal), (32, 0)),
+            _Line(46, 18, (order, self.measure, rest), (118, 0, 146)),
+            _Line(67, 18, (method, self._button), (150, 58)),
+            _Line(86, 13, (None, self._forget), (0, 76)),
         )
-        self.widgets = [*(widget for line in self._lines for widget in line[2] if widget), self.list]
+        self.widgets = [*(widget for line in self._lines for widget in line.widgets if widget), self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        for top, high, widgets, widths in self._lines:
-            put_in_a_row((x + 4, y + top, w - 8, high), widgets, widths)
+        for line in self._lines:
+            put_in_a_row((x + 4, y + line.top, w - 8, line.height), line.widgets, line.widths)
         self.list.area = x + 4, y + 99, w - 8, h - 101
 
     def commands(self) -> Commands:
@@ -191,11 +198,14 @@ class SearchTab(Tab):
         self._preset = _Preset(name, make, goal)
         self.goal.show(goal.goal)
         self.measure.show(goal.measure)
-        self.order = EARLIEST if not goal.measure else SMALLEST if goal.least else GREATEST
+        self.order = EARLIEST
+        if goal.measure:
+            self.order = SMALLEST if goal.least else GREATEST
         self.rest = goal.rest
         self.method = goal.method or ("auto" if self.method in IMPROVES else self.method)
         first, self._first_behind = self.span
-        self.span = (0 if goal.method else first, goal.last or self._first_behind)
+        first = 0 if goal.method else first
+        self.span = first, goal.last or self._first_behind
         self.span_reason = goal.why
         if start:
             self.start()
@@ -248,8 +258,8 @@ class SearchTab(Tab):
             task = self._span_whole_run() if whole else self.task
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
-            every = None if whole else fewest_ticks(task.length) if self.method == "exhaustive" else 1
-            self.results = SpanResults(self.editor, task, self.method, every, self._title(task))
+            every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
+            self.results = SpanResults(self.editor, task, self.method, None if whole else every, self._title(task))
         except NinjaGameError as error:
             self.editor.refuse(what_is_wrong(error))
         else:
@@ -258,8 +268,8 @@ class SearchTab(Tab):
     def _title(self, task: SpanTask) -> str:
         if self.method in IMPROVES:
             return "Whole run"
-        wanted = self._preset.name if self._preset and self._is_from_menu else task.measure or task.goal
-        return f"{task.first}-{task.last - 1} {wanted[:MAX_TITLE]}"
+        goal = self._preset.name if self._preset and self._is_from_menu else task.measure or task.goal
+        return f"{task.first}-{task.last - 1} {goal[:MAX_TITLE]}"
 
     def _start_or_stop(self) -> None:
         if not self.stop():
@@ -341,8 +351,8 @@ class SearchTab(Tab):
         state = tuple[object, ...]((len(self.earlier), self.editor.track))
         if results:
             state += (results.status, results.running, results.first_behind, self.pieces, *map(id, self.better))
-        wanted = self.order, self.rest, self.goal.text
-        return self.span, self.span_reason, self.editor.selection, *wanted, self.list.over, state
+        form = self.order, self.rest, self.goal.text
+        return self.span, self.span_reason, self.editor.selection, *form, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

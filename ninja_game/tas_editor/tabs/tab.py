@@ -188,7 +188,7 @@ class Rows(ListView):
 
 
 class EntryField(TextEntry):
-    """A field in a tab; ``enter`` at Enter, ``step`` with -1 or 1 at Up and Down."""
+    """A field in a tab. Enter calls ``enter``; Up and Down call ``step`` with -1 or 1."""
 
     def __init__(
         self,
@@ -215,10 +215,10 @@ class EntryField(TextEntry):
 
 
 def put_in_a_row(area: Area, widgets: Sequence[Widget | None], widths: Sequence[float]) -> None:
-    """Place widgets beside each other, 4 px apart; None: a gap; width 0: what the others leave."""
+    """Place widgets beside each other, 4 px apart. None leaves a gap; a width of 0 takes what the others leave."""
     x, y, w, h = area
-    for widget, wide in zip(widgets, widths, strict=True):
-        width = wide or w - sum(widths) - 4 * (len(widths) - 1)
+    for widget, fixed in zip(widgets, widths, strict=True):
+        width = fixed or w - sum(widths) - 4 * (len(widths) - 1)
         if widget is not None:
             widget.area = x, y, width, h
         x += width + 4

@@ -39,17 +39,17 @@ def starts_of(track: InputTrack, unfolded: Span | None = None, kept: int = 0) ->
     odd = inputs != np.frombuffer(with_press_bits(track.inputs), np.uint8)
     # The keys that are down; 16 and 8 mark a jump that no keyboard makes, and its press.
     keys = inputs & np.uint8(KEYS_DOWN) | (odd * (inputs & np.uint8(JUMP_PRESSED) | np.uint8(16))).astype(np.uint8)
-    marked = [tick for tick, _ in track.markers]
-    starts = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(keys[1:] != keys[:-1]) + 1), *marked, len(inputs)])
+    markers = [tick for tick, _ in track.markers]
+    starts = np.unique([0, min(kept, len(inputs)), *(np.flatnonzero(keys[1:] != keys[:-1]) + 1), *markers, len(inputs)])
     if unfolded is None:
         return starts
     inside = (starts >= unfolded[0]) & (starts <= unfolded[1])
-    return starts[inside | np.isin(starts, [0, *marked, len(inputs)])]
+    return starts[inside | np.isin(starts, [0, *markers, len(inputs)])]
 
 
 def section_at(track: InputTrack, tick: int) -> Span:
     """The ticks from a marker, or the start, to the next marker, or the end, around a tick."""
-    bounds = sorted({0, *(marked for marked, _ in track.markers), len(track)})
+    bounds = sorted({0, *(marker for marker, _ in track.markers), len(track)})
     number = max(0, min(bisect_right(bounds, tick), len(bounds) - 1) - 1)
     return bounds[number], bounds[min(number + 1, len(bounds) - 1)]
 
@@ -115,14 +115,14 @@ class TextTab(Tab):
 
     def update(self, real_ms: int) -> None:
         self._lines = self._lines if self._lines == self.editor.selection else None
-        seen = self.editor.track, self.editor.cursor, self._lines, self.celeste, self.folded
-        if self.editor.tab == self.name and seen != self._seen:
-            self._seen, self._track = seen, self.editor.track
+        state = self.editor.track, self.editor.cursor, self._lines, self.celeste, self.folded
+        if self.editor.tab == self.name and state != self._seen:
+            self._seen, self._track = state, self.editor.track
             self._unfolded = section_at(self._track, self.editor.cursor) if self.folded else None
             # Typing continues behind the last typed line, even if the keys there are equal.
-            kept = self.editor.cursor if self.editor.cursor == self._typed_until else 0
-            self._typed_until = kept or -1
-            self.starts = starts_of(self._track, self._unfolded, kept)
+            end = self.editor.cursor if self.editor.cursor == self._typed_until else 0
+            self._typed_until = end or -1
+            self.starts = starts_of(self._track, self._unfolded, end)
             self.list.index = int(np.searchsorted(self.starts, self.editor.cursor, "right")) - 1
             self.list.fill(range(len(self.starts)))
             if not self._clicked:  # a clicked line stays under the mouse
@@ -172,9 +172,9 @@ class TextTab(Tab):
         """
         text, (first, last) = self.field.text.strip(), self._edited
         if text[:2].strip() == "#":
-            if done := self.editor.edit_selected(lambda track: track.named(first, text[1:])):
+            if is_changed := self.editor.edit_selected(lambda track: track.named(first, text[1:])):
                 self._go_on(last)
-            return done
+            return is_changed
         commented = _NAME_AND_COMMENT.search(text)
         text = text[: commented.start()] if commented else text
         try:
@@ -202,9 +202,9 @@ class TextTab(Tab):
                 result = result.named(first + tick, name)
             return result
 
-        if done := self.editor.edit_selected(changed):
+        if is_changed := self.editor.edit_selected(changed):
             self._go_on(first + len(typed.keys))
-        return done
+        return is_changed
 
     def _go_on(self, tick: int) -> None:
         """Go to the line behind the typed one; it is shown before the next key, which may come at once."""

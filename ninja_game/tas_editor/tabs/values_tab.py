@@ -58,16 +58,16 @@ class TickRange:
 
     def zoom(self, x: float, steps: int) -> None:
         """Show fewer ticks (steps > 0) or more, around the one at a place."""
-        shown = min(max((self.last - self.first) * 0.8**steps, MIN_SHOWN_TICKS), self.length)
+        ticks = min(max((self.last - self.first) * 0.8**steps, MIN_SHOWN_TICKS), self.length)
         share = (x - self.left) / self.width
-        self.first = self.tick(x) - share * shown
-        self.last = self.first + shown
+        self.first = self.tick(x) - share * ticks
+        self.last = self.first + ticks
         self.move(0.0)
 
     def move(self, ticks: float) -> None:
-        shown = self.last - self.first
-        self.first = max(0.0, min(self.first + ticks, self.length - shown))
-        self.last = self.first + shown
+        span = self.last - self.first
+        self.first = max(0.0, min(self.first + ticks, self.length - span))
+        self.last = self.first + span
 
     def follow(self, tick: float) -> None:
         if not self.first <= tick <= self.last:
@@ -86,22 +86,22 @@ def draw_lane(
     x, y, w, h = area
     canvas.fill_rect(surface, palette.background, *area)
     start = max(0, int(window.first))
-    shown = values[start : int(window.last) + 2]
-    known = shown[np.isfinite(shown)]
-    if not len(known):
+    in_window = values[start : int(window.last) + 2]
+    finite = in_window[np.isfinite(in_window)]
+    if not len(finite):
         theme.text(surface, "no value here", x + w / 2, y + h / 2 - 5, size=9, colour=palette.faint, align="centre")
         return
-    low, high = float(known.min()), float(known.max())
+    low, high = float(finite.min()), float(finite.max())
     middle, span = (low + high) / 2, max(high - low, 1e-9)
     top, height = y + 3, h - 6
     if low < 0 < high:
         zero = top + height * (high / span)
         canvas.fill_rect(surface, palette.panel_edge, x, zero, w, 0.5)
-    ticks = np.arange(start, start + len(shown), dtype=np.float64)
+    ticks = np.arange(start, start + len(in_window), dtype=np.float64)
     most = max(2, canvas.px(w))
-    if len(shown) > 2 * most:
-        ticks, shown = _thinned(ticks, shown, most)
-    share = (high - shown) / span if high > low else np.full(len(shown), 0.5) + 0 * shown
+    if len(in_window) > 2 * most:
+        ticks, in_window = _thinned(ticks, in_window, most)
+    share = (high - in_window) / span if high > low else np.full(len(in_window), 0.5) + 0 * in_window
     left, above = canvas.exact(window.left, top)
     px = left + (ticks - window.first) * (window.width * canvas.scale / (window.last - window.first))
     lane = canvas.rect(*area)
@@ -122,8 +122,8 @@ def _thinned(ticks: FormulaValues, values: FormulaValues, columns: int) -> tuple
 
 def _draw_line(surface: pygame.Surface, colour: pygame.Color, points: FormulaValues, width: int) -> None:
     """A line through points, float64 (n, 2), px; NaN leaves a gap."""
-    known = np.isfinite(points[:, 1])
-    for piece in np.split(points, np.flatnonzero(np.diff(known)) + 1):
+    finite = np.isfinite(points[:, 1])
+    for piece in np.split(points, np.flatnonzero(np.diff(finite)) + 1):
         if len(piece) > 1 and np.isfinite(piece[0, 1]):
             x, y = piece.T.tolist()  # twice as quick as a list for each point
             pygame.draw.lines(surface, colour, False, [*zip(x, y, strict=True)], width)
@@ -253,12 +253,12 @@ class ValuesTab(Tab):
 
     def refresh(self) -> None:
         timeline = self.editor.session.timeline
-        made = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
-        if made != self._made:
+        state = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
+        if state != self._made:
             for watched in self.watched:
                 watched.values = watched.watch.values(timeline)
             self.events = timeline.event_ticks
-            self._made = made
+            self._made = state
             self.list.fill(self.watched)
 
     def ask(self, text: str = "") -> None:
@@ -316,9 +316,9 @@ class ValuesTab(Tab):
     def render_key(self) -> tuple[object, ...]:
         editor = self.editor
         plotted = tuple((watched, watched.plotted) for watched in self.watched)
-        shown = self.window.first, self.window.last, self.list.over
+        view = self.window.first, self.window.last, self.list.over
         run = editor.track, editor.session.timeline.simulated_until
-        return run, editor.cursor, editor.selection, plotted, shown
+        return run, editor.cursor, editor.selection, plotted, view
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         super().paint(surface, theme)

@@ -241,7 +241,7 @@ class Footsteps:
         self._way = STEP_PX / 2
 
     def loudness(self, ninja: Ninja) -> float:
-        """Loudness of the step of this tick, a share by speed; 0: no step. To be called every tick."""
+        """Loudness of the step of this tick, a share by speed, and 0 without one. To be called every tick."""
         if ninja.state != RUNNING:
             self._way = STEP_PX / 2
             return 0.0

@@ -115,7 +115,7 @@ def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
 
 
 def warning_of(o: Object) -> str:
-    """The danger that an object's sounds announce: "rocket", "weapon", "chase", "turret"; "": none."""
+    """The danger that an object's sounds announce: "rocket", "weapon", "chase", "turret"; "" for none."""
     kind, routine = o.kind, o.routine
     if kind == LAUNCHER and routine in (states.LAUNCHER_PREPARE, states.LAUNCHER_FLIGHT):
         return "rocket"

@@ -134,7 +134,8 @@ class Bindings:
         self.pad_used = False
         learn_label(event)
         code = scancode_of(event)
-        name, actions = key_name(code), tuple(self._by_key.get(code, ()))
+        name = key_name(code)
+        actions = tuple(self._by_key.get(code, ()))
         menu = MENU_KEYS.get(name, "")
         if event.type == pygame.KEYUP:
             return InputEvent(event, released=actions, menu_released=menu)

@@ -56,7 +56,7 @@ class Effects:
         self, kind: str, x: float, y: float, dx: float = 0.0, dy: float = 0.0, *,
         life: float = 10.0, size: float = 1.0, rear: bool = False,
     ) -> None:  # fmt: skip
-        """One particle that starts now; ``life`` in frames of 1/120 s."""
+        """One particle that starts now. ``life``: frames of 1/120 s."""
         variant = self.rng.randrange(6)
         self.particles.add(Particle(kind, x, y, dx, dy, life / 3, size, variant, self.now), rear=rear)
 
@@ -70,8 +70,9 @@ class Effects:
     def puffs(self, x: float, y: float, nx: float, ny: float, angle: float, length: float, count: int = 4) -> None:
         """Puffs of dust from a surface with normal (nx, ny), to alternating sides."""
         for k in range(count):
-            turn = radians((angle + self.rng.uniform(-10, 10)) * (1 if k % 2 else -1))
-            tx, ty = -ny * (1 if k % 2 else -1), nx * (1 if k % 2 else -1)
+            side = 1 if k % 2 else -1
+            turn = radians((angle + self.rng.uniform(-10, 10)) * side)
+            tx, ty = -ny * side, nx * side
             dx = tx * cos(turn) + nx * abs(sin(turn))
             dy = ty * cos(turn) + ny * abs(sin(turn))
             far = length * self.rng.uniform(0.6, 1.2)

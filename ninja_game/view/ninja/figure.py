@@ -218,7 +218,7 @@ def edge_of(colour: pygame.Color) -> pygame.Color:
 
 
 def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
-    """The elbow or knee between two joints, for parts of those lengths; ``side`` 1 or -1: the side of the bend."""
+    """The elbow or knee between two joints, for parts of those lengths. ``side``: where it bends to, 1 or -1."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     distance = (dx * dx + dy * dy) ** 0.5
     if distance < 1e-6:

@@ -202,6 +202,7 @@ def object_pushes(world: World, box: VerletParticle) -> Iterator[tuple[float, fl
 
 
 def _square(o: Object, box: VerletParticle) -> Iterator[tuple[float, float, float]]:
+    """Push the box out of an object; gives the direction, a unit vector, and the kick along it, as ``_pad`` does."""
     half = kinds.KIND_OF[o.kind].box or kinds.KIND_OF[o.kind].disc or 0.0
     dx, dy = box.x - o.x, box.y - o.y
     ox, oy = half + box.half - abs(dx), half + box.half - abs(dy)

@@ -112,7 +112,7 @@ def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
 
 @drawn_within(-9.5, -12, 9.5, 3)
 def launch_pad(s: Sketch, p: Palette, step: int) -> None:
-    """A spring plate on the surface at its point; ``step`` 8: just sprung, 0: settled. What springs is green."""
+    """A spring plate on the surface at its point, from ``step`` 8 (just sprung) to 0. What springs is green."""
     top = -5.8 - 4.5 * step / 8
     flash = mixed(p.good, p.bright, 0.7 * step / 8)
     s.polygon(p.dark, [(-5.5, 0), (5.5, 0), (4, top + 2.4), (-4, top + 2.4)])

@@ -21,7 +21,8 @@ BESIDE, BELOW, _RIGHT = 72, 28, _WIDTH - _MARGIN  # room for the labels; the rig
 PLACE = "place-"  # the anchor of a numbered place in a picture
 MARK_APART = 14  # least px between two numbers
 
-_FLOOR, _LANES, DEEP = 130, (152, 176, 200), 240  # px from the top: speeds, keys, lower end
+_FLOOR, DEEP = 130, 240  # px from the top: lower end of the speeds, and of all
+_LANES = 152, 176, 200  # of the keys, px from the top
 ROW_TICKS, _MAX_ROWS = 10 * TICKS_PER_SECOND, 6  # a row of speeds and keys; a long run has longer ones
 _MAX_COLUMNS = 400  # columns of a row
 LABELS_APART = 26  # least px between two numbers of splits
@@ -39,7 +40,8 @@ def step_chart(
     ``text``: of a value; ``days``: of the first and the last moment; ``label``: the line's text for screen readers.
     """
     x, y = np.array(points, np.float64).T
-    low, high, floor = float(y.min()), float(y.max()), _HEIGHT - BELOW
+    low, high = float(y.min()), float(y.max())
+    floor = _HEIGHT - BELOW
     x = BESIDE + (_RIGHT - BESIDE) * _share(x)
     y = floor - (floor - _MARGIN) * _share(y)
     moves = "".join(f"H{left:.1f}V{up:.1f}" for left, up in zip(x[1:], y[1:], strict=True))
@@ -72,11 +74,11 @@ def _beside(text: str, up: float) -> Markup:
     return tag("text", text, x=BESIDE - 8, y=f"{up + 4:.0f}", text_anchor="end")
 
 
-def _seconds(start: int, end: int, wide: float, below: int) -> Iterator[Markup]:
-    """The full seconds of these ticks, each ``wide`` px; not more than have room."""
+def _seconds(start: int, end: int, px_per_tick: float, below: int) -> Iterator[Markup]:
+    """The full seconds of these ticks, ``px_per_tick`` px each; not more than have room."""
     step = TICKS_PER_SECOND * -(-2 * (end - start) // ROW_TICKS)
     for tick in range(-(-start // step) * step, end, step):
-        left = f"{BESIDE + wide * (tick - start):.0f}"
+        left = f"{BESIDE + px_per_tick * (tick - start):.0f}"
         yield tag("text", f"{tick // TICKS_PER_SECOND} s", x=left, y=below, text_anchor="middle")
 
 
@@ -88,10 +90,10 @@ def _share(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _marks(places: Sequence[tuple[float, float]]) -> Iterator[Markup]:
     """Numbers at places; one that would cover an earlier one shows only while a link to it is active."""
-    shown: list[tuple[float, float]] = []
+    numbers: list[tuple[float, float]] = []
     for number, (x, y) in enumerate(places, 1):
-        free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in shown)
-        shown += [(x, y)] * free
+        free = all(abs(x - left) > MARK_APART or abs(y - top) > MARK_APART for left, top in numbers)
+        numbers += [(x, y)] * free
         at = f"{x:.0f}", f"{y:.0f}"
         text = tag("text", number, x=at[0], y=f"{y + 5:.0f}", text_anchor="middle")
         ring = tag("circle", cx=at[0], cy=at[1], r="14")
@@ -134,21 +136,22 @@ def speed_and_keys(speeds: NDArray[np.float64], inputs: bytes, splits: Sequence[
     """
     keys = np.frombuffer(inputs, np.uint8)[: len(speeds)]
     length = min(len(speeds), max(ROW_TICKS, -(-len(speeds) // _MAX_ROWS)))
-    wide = (_RIGHT - BESIDE) / length
+    px_per_tick = (_RIGHT - BESIDE) / length
     step = -(-length // _MAX_COLUMNS)
     top = float(speeds.max()) or 1.0
     rows = []
     for start in range(0, len(speeds), length):
         end = min(start + length, len(speeds))
         columns = np.arange(0, end - start, step)
-        x = BESIDE + wide * columns
+        x = BESIDE + px_per_tick * columns
         y = _FLOOR - (_FLOOR - 2 * _MARGIN) * np.maximum.reduceat(speeds[start:end], columns) / top
         points = "L".join(f"{left:.1f} {up:.0f}" for left, up in zip(x, y, strict=True))
-        drawn = [*_scale("{:.1f}".format, 0, top, _FLOOR, 2 * _MARGIN), *_numbers(splits, start, end, wide)]
-        drawn += [*_seconds(start, end, wide, DEEP - 6), tag("path", d=f"M{points}", class_="speed")]
+        drawn = [*_scale("{:.1f}".format, 0, top, _FLOOR, 2 * _MARGIN), *_numbers(splits, start, end, px_per_tick)]
+        drawn += [*_seconds(start, end, px_per_tick, DEEP - 6), tag("path", d=f"M{points}", class_="speed")]
         down = np.bitwise_or.reduceat(keys[start:end], columns)
         for (name, key), lane in zip(MOVES, _LANES, strict=True):
-            spans = np.flatnonzero(np.diff(down & key != 0, prepend=False, append=False)).reshape(-1, 2) * wide * step
+            changes = np.flatnonzero(np.diff(down & key != 0, prepend=False, append=False))
+            spans = changes.reshape(-1, 2) * px_per_tick * step
             strokes = "".join(f"M{BESIDE + left:.1f} {lane}h{right - left:.1f}" for left, right in spans.tolist())
             drawn += [_beside(name.capitalize(), lane), tag("path", d=strokes, class_="keys")]
         span = f"{seconds_text(start)} s to {seconds_text(end)} s, at most {speeds[start:end].max():.1f} px per tick"
@@ -156,12 +159,12 @@ def speed_and_keys(speeds: NDArray[np.float64], inputs: bytes, splits: Sequence[
     return rows
 
 
-def _numbers(splits: Sequence[int], start: int, end: int, wide: float) -> Iterator[Markup]:
+def _numbers(splits: Sequence[int], start: int, end: int, px_per_tick: float) -> Iterator[Markup]:
     """The splits in a row of a chart; a number is left out that would cover the one before."""
     last = 0.0
     for number, tick in enumerate(splits, 1):
         if start <= tick < end:
-            left = BESIDE + wide * (tick - start)
+            left = BESIDE + px_per_tick * (tick - start)
             yield tag("path", d=f"M{left:.1f} {2 * _MARGIN}V{_LANES[-1] + 8}", class_="split")
             if left - last >= LABELS_APART:
                 last = left
@@ -169,19 +172,24 @@ def _numbers(splits: Sequence[int], start: int, end: int, wide: float) -> Iterat
 
 
 def lead_chart(ticks: Sequence[int], late: Sequence[tuple[int, Sequence[int | None]]], label: str) -> Markup:
-    """Lines of how many ticks runs, by their colours' numbers, are later at these ticks of another one; None: a gap."""
-    known = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
-    low, high, floor = min(known), max(known), _HEIGHT - BELOW
-    up, wide = (floor - _MARGIN) / ((high - low) or 1), (_RIGHT - BESIDE) / (ticks[-1] or 1)
+    """Lines of how many ticks some runs are later at these ticks of another one.
+
+    ``late``: for each run the number of its colour and its delays; None leaves a gap.
+    """
+    leads_at_all = [0, *(lead for _, leads in late for lead in leads if lead is not None)]
+    low, high = min(leads_at_all), max(leads_at_all)
+    floor = _HEIGHT - BELOW
+    up = (floor - _MARGIN) / ((high - low) or 1)
+    px_per_tick = (_RIGHT - BESIDE) / (ticks[-1] or 1)
     drawn = [
         *_scale(lambda lead: f"{lead / TICKS_PER_SECOND:.2f}", low, high, floor),
-        *_seconds(0, ticks[-1], wide, _HEIGHT - 6),
+        *_seconds(0, ticks[-1], px_per_tick, _HEIGHT - 6),
     ]
     for number, leads in reversed(late):
         moves, gap = "", True
         for tick, lead in zip(ticks, leads, strict=True):
             if lead is not None:
-                moves += f"{'M' if gap else 'L'}{BESIDE + wide * tick:.1f} {floor - up * (lead - low):.0f}"
+                moves += f"{'M' if gap else 'L'}{BESIDE + px_per_tick * tick:.1f} {floor - up * (lead - low):.0f}"
             gap = lead is None
         drawn.append(tag("path", d=moves, class_="way", stroke=css_colour(run_colour(number))))
     return _chart(label, _HEIGHT, *drawn)

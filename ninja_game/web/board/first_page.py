@@ -59,12 +59,12 @@ class FirstPage:
         older = table("Newest first", heads, rows[:NEWEST], LESSER) if rows else None
         older = tag("details", tag("summary", "Earlier records"), older) if newest and older else older
         feed = tag("p", tag("a", "Feed of new records (Atom)", href=FEED))
-        shown = tag("ul", *newest, class_="cards") if newest else None, older, tag("p", ONE_MOMENT), feed
-        news: list[Piece] = [("newest", "Newest records", joined(*shown))] if newest or rows else []
+        cards_and_table = tag("ul", *newest, class_="cards") if newest else None, older, tag("p", ONE_MOMENT), feed
+        news: list[Piece] = [("newest", "Newest records", joined(*cards_and_table))] if newest or rows else []
         leaders: list[Piece] = [
-            (ladder, self.players.title(ladder), self.players.short_list(first))
+            (ladder, self.players.title(ladder), self.players.short_list(standings[:LEADING]))
             for ladder, standings in self.ranking.standings.items()
-            if (first := standings[:LEADING])
+            if standings
         ]
         lead = tag("p", f"{counts(self.ranking.judged)}.", class_="lead")
         again = tag("p", "Every run was simulated again: times, gold and scores are the result of its inputs.")
@@ -141,7 +141,7 @@ class FirstPage:
 
     def _contested(self) -> list[Piece]:
         """The most contested levels; where there are none, those of the newest runs."""
-        shown: list[Markup] = []
+        contested: list[Markup] = []
         order = "By how often records were beaten, of all categories and ladders; results are those in"
         if len(self.entries) == 1:
             return []
@@ -156,9 +156,9 @@ class FirstPage:
             parts = counted(beaten, "record") + " beaten" if beaten else "", self.parts.counts_of(digest)
             about = joined(*(tag("span", text) for text in parts if text))
             spreads = (self._spread(digest, ladder) for ladder in self.ranking.ladders)
-            shown.append(card(self.entries[digest], about, *self.parts.best_results(digest), *spreads))
+            contested.append(card(self.entries[digest], about, *self.parts.best_results(digest), *spreads))
         caption = f"{order} {self.parts.main.name}{self.parts.of_both()}"
-        return [("contested", title, cards(caption, shown))] if shown else []
+        return [("contested", title, cards(caption, contested))] if contested else []
 
     def _spread(self, digest: str, ladder: str) -> str:
         """The gaps of the second and the fifth run of a ladder to the first, in the first category."""

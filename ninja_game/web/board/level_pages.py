@@ -83,9 +83,9 @@ class LevelPages:
         if run in beside and len(beside) > 1:
             links.append(tag("a", "Splits", href=f"{UP}{BOARD}/{page_name(run.level)}#{SPLITS}"))
         keys = f"{counted(run.presses, 'press', 'presses')}, {counted(run.jumps, 'jump')}"
-        gold, made = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
+        gold, origin = f"{run.gold} of {run.entry.all_gold}", run.made or "unknown"
         facts = [("Time", FASTEST.measured(run.tick)), *ranks, ("Score", HIGHEST.measured(-run.score)), ("Gold", gold),
-                 ("Medal", run.medal), ("Keys", keys), ("With", run.co_authors), ("Made", made), ("Date", run.day),
+                 ("Medal", run.medal), ("Keys", keys), ("With", run.co_authors), ("Made", origin), ("Date", run.day),
                  ("Remark", run.remark)]  # fmt: skip
 
         def content() -> str:
@@ -149,10 +149,10 @@ class LevelPages:
 
         parts.pages.make(picture_name(digest), digest, lambda: picture(named.level))
         parts.pages.make(page_name(digest), [about, ladders, rows, categories, parts.deeper, parts.site], content)
-        known = {parts.stems[run.key]: run for run in runs}
+        runs_by_stem = {parts.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
-            run = known[row[0]]
+            run = runs_by_stem[row[0]]
             return parts.run_cells(run, seconds_text(run.tick), seconds_text(run.score))
 
         splits = self.ranking.side_by_side(digest, RUNS_SIDE_BY_SIDE)[1] if runs else []
@@ -190,19 +190,19 @@ class LevelPages:
             rows = [row for row in table_ if not row.is_far][:ROWS_SHOWN]
             ranks = _Ranks(part, rows, far, self.ranking.waiting(entry.digest, part, table_))
             merged[part[0], *((row.place, row.run.key) for row in rows)].append(ranks)
-        shown, leaders = list[Content](), dict[Leaderboard, Markup]()
+        contents, leaders = list[Content](), dict[Leaderboard, Markup]()
         for number, group in enumerate(merged.values(), 1):
-            shown.append(self._table(group, marks, anchor := f"ranks-{number}"))
-            shown.append(self._note_on("More than twice as slow", [row for ranks in group for row in ranks.is_far]))
-            shown.append(self._note_on("Better, and waiting", [row for ranks in group for row in ranks.waiting]))
+            contents.append(self._table(group, marks, anchor := f"ranks-{number}"))
+            contents.append(self._note_on("More than twice as slow", [row for ranks in group for row in ranks.is_far]))
+            contents.append(self._note_on("Better, and waiting", [row for ranks in group for row in ranks.waiting]))
             leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in group}
         waits = self.parts.waiting_link(self.ranking.by_level[entry.digest])
         leads = [(name, name.capitalize()) for name, content in ((_RECORDS, first), (SPLITS, beside)) if content]
         note = tag("p", NEAR, waits) if waits else None
         top = tag("ul", *(leaders[part] for part in tables), class_="cards"), on_this_page(leads) if leads else None
         unknown = any(not row.run.made for group in merged.values() for ranks in group for row in ranks.rows)
-        shown.append(tag("p", UNKNOWN_ORIGIN.format(self.ranking.unknown)) if unknown else None)
-        return joined(*top), drawn, joined(*shown, note, link, first, folded, beside)
+        contents.append(tag("p", UNKNOWN_ORIGIN.format(self.ranking.unknown)) if unknown else None)
+        return joined(*top), drawn, joined(*contents, note, link, first, folded, beside)
 
     def _note_on(self, what: str, rows: Sequence[Ranked]) -> Content:
         """The line below a table about runs that are not in it, each once."""
@@ -214,7 +214,8 @@ class LevelPages:
 
     def _leader(self, ranks: _Ranks, anchor: str) -> Markup:
         """The leader of a table, and a link to it; if all runs wait for confirmation, their number."""
-        parts, leaderboard, best = self.parts, ranks.leaderboard, ranks.rows[0]
+        parts, leaderboard = self.parts, ranks.leaderboard
+        best = ranks.rows[0]
         link = tag("a", self.ranking.leaderboard_name(leaderboard), href=f"#{anchor}")
         if best.place != 1:
             waits = parts.waiting_link(row.run for row in self.ranking.tables[best.run.level][leaderboard])
@@ -235,8 +236,8 @@ class LevelPages:
             results = [categories[at].text(ranked[at].values[0]) for at in map(heads.index, names)]
             delay = self.parts.behind(categories[0], ranked[0], same[0].rows[0])
             cells = self.parts.run_cells(run, *results, delay, timed=FASTEST.unit in heads, mark=marks.get(run.key))
-            marked = tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
-            rows.append((marked, *cells))
+            rank = tag("span", place, class_=f"place {MEDALS[place]}") if 0 < place < len(MEDALS) else place or ""
+            rows.append((rank, *cells))
         lesser = LESSER.union(names[1:]) - {names[0]}
         best = table("Best run of each player", ("Place", "Player", *names, "Behind", *RUN_HEADS), rows, lesser)
         last = self.ranking.leaderboard_name(same[-1].leaderboard)  # all are of one ladder
@@ -321,40 +322,40 @@ class LevelPages:
         if max(run.tick for _, run, _ in runs) >= MAX_ALIGNED_TICKS:
             return None
         length = first.tick + 1
-        seconds = range(step := TICKS_PER_SECOND * (1 + length // _MAX_SECONDS), length, step)
+        step = TICKS_PER_SECOND * (1 + length // _MAX_SECONDS)
+        seconds = range(step, length, step)
         ticks = sorted({*range(0, length, 1 + length // MAX_LEADS), *seconds, first.tick})
         delays = [dict(zip(ticks, self._delays(first, other, ticks), strict=True)) for _, other, _ in others]
         sentences = []
         for (name, *_), delay in zip(others, delays, strict=True):
-            near = [(0, 0), *((tick, lead) for tick in seconds if (lead := delay[tick]) is not None)]
+            leads = ((tick, delay[tick]) for tick in seconds)
+            near = [(0, 0), *((tick, lead) for tick, lead in leads if lead is not None)]
             lost, start, end = max(((b[1] - a[1], a[0], b[0]) for a, b in pairwise(near)), default=(0, 0, 0))
             span = f"between {start // TICKS_PER_SECOND} s and {end // TICKS_PER_SECOND} s of {fastest}"
             sentences += [tag("p", f"{name} loses most {span}: {seconds_text(lost)} s.")] if lost > 0 else []
         caption = f"Seconds by which each is later where {fastest} is then; a gap: it goes another way"
         lines = [(number, [*delay.values()]) for (*_, number), delay in zip(others, delays, strict=True)]
         legend = tag("ul", *(tag("li", swatch(number), f" {name}") for name, _, number in others), class_="facts")
-        shown = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
-        rows = [
-            (
-                f"{tick // TICKS_PER_SECOND} s",
-                *("" if delay[tick] is None else signed(delay[tick] or 0) for delay in delays),
-            )
-            for tick in seconds
-        ]
-        rows = [row for row in rows if tabled and any(row[1:])]
+        contents = [*sentences, tag("p", caption, class_="faint"), lead_chart(ticks, lines, caption), legend]
+        rows = []
+        for tick in seconds if tabled else ():
+            cells = ["" if delay[tick] is None else signed(delay[tick] or 0) for delay in delays]
+            if any(cells):
+                rows.append((f"{tick // TICKS_PER_SECOND} s", *cells))
         heads = [name for name, *_ in runs]
         folded = tag("details", tag("summary", "As a table"), table(caption, heads, rows)) if rows else None
-        return section("Where time goes", *shown, folded)
+        return section("Where time goes", *contents, folded)
 
     def _delays(self, first: Run, other: Run, ticks: Sequence[int]) -> list[int | None]:
         """As ``_leads``, compared once for all pages of the level. ``ticks``: always the same of a first run."""
-        if (pair := (first.key, other.key)) not in self._compared:
+        pair = first.key, other.key
+        if pair not in self._compared:
             self._compared[pair] = _leads(self._ghost(first).positions, self._ghost(other).positions, ticks)
         return self._compared[pair]
 
 
 def _leads(ours: NDArray[np.float64], theirs: NDArray[np.float64], ticks: Sequence[int]) -> list[int | None]:
-    """The ticks by which the other run is later at the places of these ticks; None: it is not near there."""
+    """The ticks by which the other run is later at the places of these ticks; None where it is not near."""
     partner = aligned(ours[::COARSE], theirs[::COARSE])
     leads: list[int | None] = []
     for tick in ticks:

@@ -44,11 +44,11 @@ class PlayerPages:
         runs: dict[str, list[Run]] = defaultdict(list)
         for run in self.ranking.judged.runs:
             runs[run.player].append(run)
-        kept, lost = self._records()
+        held, lost = self._records()
         heads = ("Level", "Record", "Result", "Date", "Lost to", "With", "On")
         for player, own in runs.items():
-            name, records = player_page(player), kept[player] + lost[player]
-            note = f"Records: {len(kept[player])} held, {len(lost[player])} lost"
+            name, records = player_page(player), held[player] + lost[player]
+            note = f"Records: {len(held[player])} held, {len(lost[player])} lost"
             link = tag("p", tag("a", note, href=f"{UP}{name}-records.html")) if records else None
             gains = self._gains(own)
             ahead = tag("p", tag("a", f"{GAINS}: {counted(len(gains), 'level')}", href=f"{UP}{name}-gains.html"))
@@ -92,7 +92,7 @@ class PlayerPages:
 
     def _records(self) -> tuple[dict[str, list[tuple[Content, ...]]], dict[str, list[tuple[Content, ...]]]]:
         """The rows of records held, and of records lost, by player."""
-        kept: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
+        held: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         lost: dict[str, list[tuple[Content, ...]]] = defaultdict(list)
         for (level, part), runs in self.ranking.history.items():
             last = {run.player: number for number, run in enumerate(runs)}
@@ -101,16 +101,16 @@ class PlayerPages:
             for player, number in last.items():
                 by = runs[number + 1] if number + 1 < len(runs) else None
                 loss = (self.parts.player_link(by.player, UP), results[number + 1], by.day) if by else ("", "", "")
-                (lost if by else kept)[player].append((*record, results[number], runs[number].day, *loss))
-        return kept, lost
+                (lost if by else held)[player].append((*record, results[number], runs[number].day, *loss))
+        return held, lost
 
     def _runs_of(self, player: str, runs: Sequence[Run], lead: Sequence[Content]) -> None:
         """A player's page: the sums, and all runs in playing order."""
         order = {level: number for number, level in enumerate(self.ranking.shown.entries)}
-        known = {self.parts.stems[run.key]: run for run in runs}
+        runs_by_stem = {self.parts.stems[run.key]: run for run in runs}
 
         def cells(row: Sequence[Any]) -> tuple[Content, ...]:
-            run = known[row[0]]
+            run = runs_by_stem[row[0]]
             gold = f"{run.gold} of {run.entry.all_gold}"
             time = self.parts.run_link(run, UP, seconds_text(run.tick))
             result = time, self.parts.watch_link([run], UP), medal_mark(run.medal), seconds_text(run.score), gold
@@ -130,11 +130,10 @@ class PlayerPages:
     def _places(self, run: Run) -> list[str]:
         """Its place in each category, and its distance from the first; whether it waits."""
         waits = ["waits for confirmation"] if run.waits else []
-        return waits + [
-            f"{self.ranking.leaderboard_name(part)}: {place}"
-            for part, rows, number in self.ranking.places.get(run.key, ())
-            if (place := self.parts.place(part[1], rows[number], rows[0]))
-        ]
+        for part, rows, number in self.ranking.places.get(run.key, ()):
+            place = self.parts.place(part[1], rows[number], rows[0])
+            waits += [f"{self.ranking.leaderboard_name(part)}: {place}"] if place else []
+        return waits
 
 
 def _sums(ladder: str, category: str, standing: Standing) -> Markup:

@@ -39,7 +39,7 @@ export class Touch {
     this.show(this.shows);
   }
 
-  // What is on the screen, as of PageServices.state: each button says where it is of use. A finger on one that goes lets
+  // What is on the screen, as in PageServices.state: each button says where it is of use. A finger on one that goes lets
   // go; the others stay down, as the move that begins a level.
   show(what) {
     this.shows = what;

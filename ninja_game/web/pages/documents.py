@@ -92,7 +92,7 @@ class Documents:
         self._sources: set[str] = set()
 
     def build(self) -> dict[str, bytes]:
-        here = Path(__file__).parent
+        folder = Path(__file__).parent
         for name in self.markdown:
             self._document(name)
         while missing := {name for name in self._sources if page_of(name) not in self.files}:
@@ -104,10 +104,10 @@ class Documents:
         self._write(SEARCH_PAGE, "Search", [form, results])
         light, dark = (HtmlFormatter(style=name).get_style_defs(".code") for name in ("default", "github-dark"))
         dark = f"@media (prefers-color-scheme: dark) {{ {dark} }}"
-        style = [frame.colours(), (here / frame.STYLE).read_text("utf-8"), light, dark]
+        style = [frame.colours(), (folder / frame.STYLE).read_text("utf-8"), light, dark]
         self.files[f"docs/{frame.STYLE}"] = "\n".join(style).encode()
         self.files |= {
-            f"docs/{frame.SCRIPT}": (here / frame.SCRIPT).read_bytes(),
+            f"docs/{frame.SCRIPT}": (folder / frame.SCRIPT).read_bytes(),
             f"docs/{frame.ICON}": frame.page_icon(),
         }
         return self.files
@@ -255,6 +255,7 @@ class Documents:
 
 
 def _split_title(tokens: list[Token], name: str) -> tuple[str, list[Token]]:
+    """The title of a document, by default its file's name, and what follows it."""
     if tokens and tokens[0].type == "heading_open" and tokens[0].tag == "h1":
         return _plain(tokens[1]), tokens[3:]
     return Path(name).stem, tokens
@@ -306,10 +307,10 @@ def _replace_paragraph(
     elif token.content.startswith("Code: "):
         before.hidden = after.hidden = True
         names = ", ".join(link.partition("#")[2] for link, _ in links)
-        shown = [_function(folder, link, address) for link, address in links]
+        functions = [_function(folder, link, address) for link, address in links]
         children[0].type, children[0].content = (
             "html_inline",
-            tag("details", tag("summary", "Show me the code: ", names), *shown),
+            tag("details", tag("summary", "Show me the code: ", names), *functions),
         )
         del children[1:]
     elif token.content.startswith("**Answer.**"):
@@ -337,11 +338,12 @@ def _highlighted(text: str, lang: str, about: str = "") -> str:
     python = lang.split(" ", maxsplit=1)[0].endswith(("python", "py"))
     lexer = PythonConsoleLexer if text.startswith(">>>") else PythonLexer if python else TextLexer
     shape = HtmlFormatter(cssclass="code", lineanchors="L" if "/" in lang else "")
-    shown = str(highlight(text, lexer(stripnl=lexer is PythonConsoleLexer), shape)).rstrip()
-    shown = re.sub(r'<a (id="L-\d+")[^>]*></a>', r"<span \1></span>", shown)
+    markup = str(highlight(text, lexer(stripnl=lexer is PythonConsoleLexer), shape)).rstrip()
+    markup = re.sub(r'<a (id="L-\d+")[^>]*></a>', r"<span \1></span>", markup)
     buttons = [tag("button", words, type="button", hidden=True) for words in ("Run", "Edit")]
     after = tag("p", *buttons, class_="try") if about == "try" else ""
-    return shown.removesuffix("</div>").replace('<div class="code"><pre>', '<pre class="code" tabindex="0">', 1) + after
+    markup = markup.removesuffix("</div>").replace('<div class="code"><pre>', '<pre class="code" tabindex="0">', 1)
+    return markup + after
 
 
 def _definitions(text: str) -> Mapping[str, ast.FunctionDef | ast.ClassDef]:

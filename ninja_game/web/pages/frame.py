@@ -50,7 +50,7 @@ def joined(*contents: Content) -> Markup:
 
 
 def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None) -> Markup:
-    """An element. ``attributes``: names with _ for - and without one at their end; True: without value; None: left out.
+    """An element. ``attributes``: names with _ for -, without one at their end; True writes no value, None nothing.
 
     Raises ValueError for an address outside of the site.
 
@@ -68,8 +68,8 @@ def tag(name: str, /, *contents: Content, **attributes: str | int | bool | None)
             parts.append(attribute)
         else:
             text = str(value)
-            shown = text if attribute in {"href", "src", "d", "content"} else shown_text(text, _MAX_TEXT)
-            parts.append(f'{attribute}="{escape(shown)}"')
+            written = text if attribute in {"href", "src", "d", "content"} else shown_text(text, _MAX_TEXT)
+            parts.append(f'{attribute}="{escape(written)}"')
     start = f"<{' '.join(parts)}>"
     return Markup(start if name in _EMPTY else f"{start}{joined(*contents)}</{name}>")
 
@@ -183,7 +183,7 @@ def page(
     where somebody shares a link, complete if the site's own is known; ``description``: the text beside it.
     """
     description = shown_text(description, _MAX_TEXT) or DESCRIPTION
-    shown = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
+    graph = {"og:title": shown_text(title), "og:description": description, "og:type": "website", "og:image": picture}
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
@@ -191,7 +191,7 @@ def page(
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", name="referrer", content="no-referrer"),
         tag("meta", name="description", content=description),
-        *(tag("meta", property=name, content=content) for name, content in shown.items() if content),
+        *(tag("meta", property=name, content=content) for name, content in graph.items() if content),
         tag("meta", name="twitter:card", content="summary_large_image") if picture else None,
         tag("title", f"{title} - ninja-game"),
         tag("link", rel="stylesheet", href=f"{up}{STYLE}"),
@@ -222,9 +222,9 @@ def _navigation(links: tuple[tuple[str, str], ...], current: str) -> Markup:
 @lru_cache(64)  # the pages of a player, one after the other, share it
 def heading(text: str) -> Markup:
     """The heading of a page in the game's own letters, or plain if letters are missing."""
-    shown = shown_text(text)
-    glyphs = [glyph_of(character) for character in shown]
-    if not 0 < len(shown) <= _MAX_HEADING or None in glyphs:
+    letters = shown_text(text)
+    glyphs = [glyph_of(character) for character in letters]
+    if not 0 < len(letters) <= _MAX_HEADING or None in glyphs:
         return tag("h1", text)
     x, moves = 1.0, []
     for letter in glyphs:
@@ -236,7 +236,7 @@ def heading(text: str) -> Markup:
     strokes = tag("path", d="".join(moves), **ink, stroke_linecap="round", stroke_linejoin="round")
     box = f"0 0 {x:.1f} {CAP + 7:.1f}"
     picture = tag("svg", strokes, viewBox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
-    return tag("h1", picture, tag("span", shown, class_="hidden"))
+    return tag("h1", picture, tag("span", letters, class_="hidden"))
 
 
 def page_icon() -> bytes:
@@ -278,11 +278,12 @@ def table(
     """
     cells = [list(row) for row in rows]
     filled = [any(cell not in ("", None) for cell in column) for column in zip(*cells, strict=True)] or repeat(True)
-    shown, lines = [*compress(heads, filled)], [[*compress(row, filled)] for row in cells]
+    columns = [*compress(heads, filled)]
+    lines = [[*compress(row, filled)] for row in cells]
     numbers = [all(_NUMBER.fullmatch(str(cell)) for cell in column if cell) for column in zip(*lines, strict=True)]
     kinds = [f"n{at}" for at, number in enumerate(numbers, 1) if number]
-    kinds += [f"l{at}" for at, name in enumerate(shown, 1) if name in optional]
-    head = tag("tr", *(tag("th", _wrapping(name, _MAX_HEAD), scope="col") for name in shown))
+    kinds += [f"l{at}" for at, name in enumerate(columns, 1) if name in optional]
+    head = tag("tr", *(tag("th", _wrapping(name, _MAX_HEAD), scope="col") for name in columns))
     body = tag("tbody", *(tag("tr", *(tag("td", _wrapping(cell)) for cell in line)) for line in lines))
     whole = tag("table", tag("caption", caption), tag("thead", head), body, class_=" ".join(kinds) or None)
     return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)

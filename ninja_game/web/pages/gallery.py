@@ -141,11 +141,11 @@ def run_page(
         tag("p", tag("a", "The replay as a file", href=f"{stem}.txt", download=True)),
     )
     drawn = tag("div", drawn) if drawn else level_image(entry, place)
-    shown = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
+    level_part = tag("div", drawn, tag("div", *leads, class_="about"), class_="level")
     summary = ". ".join(f"{name}: {text}" for name, text in facts)
     preview = (site or place) + picture_name(entry.digest)
     links = [(normpath(place + address), name) for address, name in links]
-    return frame.page(title, shown, below, up=place, links=links, picture=preview, description=summary)
+    return frame.page(title, level_part, below, up=place, links=links, picture=preview, description=summary)
 
 
 MAX_POINTS = 400  # points of a drawn path
@@ -162,12 +162,12 @@ def path_data(positions: NDArray[np.float64]) -> str:
     length = float(np.hypot(*np.diff(positions, axis=0).T).sum())
     apart = max(_NEAREST, length / MAX_POINTS)
     first, *others = whole.tolist()
-    kept = [first]
+    places = [first]
     for place in others:
-        if dist(place, kept[-1]) >= apart:
-            kept.append(place)
-    moves = "".join(f"{x}{'' if y < 0 else ' '}{y} " for x, y in np.diff(kept, axis=0).tolist())
-    return f"M{kept[0][0]} {kept[0][1]}" + (f"l{moves.rstrip()}" if moves else "")
+        if dist(place, places[-1]) >= apart:
+            places.append(place)
+    moves = "".join(f"{x}{'' if y < 0 else ' '}{y} " for x, y in np.diff(places, axis=0).tolist())
+    return f"M{places[0][0]} {places[0][1]}" + (f"l{moves.rstrip()}" if moves else "")
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:

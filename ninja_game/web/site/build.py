@@ -128,9 +128,9 @@ def _stamped(
     """
     above = icons | {"manifest.webmanifest": json.dumps(_manifest(), indent=1).encode()}
     parts = [f"{name} {len(content)}\n".encode() + content for name, content in sorted((app | above).items())]
-    known = digest_of(b"".join(parts))[:16]
-    folder = f"app-{known}"
-    build = {"version": __version__, "id": known, "pyodide": about, "sizes": {name: len(app[name]) for name in _LARGE}}
+    stamp = digest_of(b"".join(parts))[:16]
+    folder = f"app-{stamp}"
+    build = {"version": __version__, "id": stamp, "pyodide": about, "sizes": {name: len(app[name]) for name in _LARGE}}
     templates = {name: app.pop(name) for name in TEMPLATES} | documents
     app["build.js"] = f"export const build = {json.dumps(build)};\n".encode()
     files = {f"{folder}/{name}": content for name, content in app.items()} | above
@@ -140,11 +140,11 @@ def _stamped(
     taught = sorted(name for name in documents if name.startswith(("learn/", "lab/")))
     large = sorted({*files} - {*small})
     levels = published_levels(data_folder("levels")).entries
-    shown = [f"gallery/{name(digest)}" for digest in levels for name in (page_name, picture_name)]
-    kept = {"id": known, "small": [GAME_PAGE, *small], "pages": [*PAGES, *taught, *shown], "large": large}
+    gallery = [f"gallery/{name(digest)}" for digest in levels for name in (page_name, picture_name)]
+    cached = {"id": stamp, "small": [GAME_PAGE, *small], "pages": [*PAGES, *taught, *gallery], "large": large}
     stamps = {
         _FOLDER: folder,
-        "{{kept}}": json.dumps(kept),
+        "{{kept}}": json.dumps(cached),
         "{{address}}": address,
         "{{preloads}}": "\n".join(f'<link rel="modulepreload" href="{name}">' for name in modules),
     }

@@ -100,12 +100,12 @@ def _fetch(kept: Path) -> None:
     with tempfile.TemporaryDirectory() as scratch:
         words = [npm, "pack", f"pyodide@{PYODIDE_VERSION}", "--silent", "--pack-destination", scratch]
         try:
-            done = subprocess.run(words, cwd=scratch, capture_output=True, text=True, check=False, timeout=_NPM_WAIT)  # noqa: S603 - our own words
+            process = subprocess.run(words, cwd=scratch, capture_output=True, text=True, check=False, timeout=_NPM_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.TimeoutExpired) as error:
             raise NinjaGameError(f"npm could not get Pyodide ({error}); {_hint()}") from None
         packages = list(Path(scratch).glob("*.tgz"))
-        if done.returncode or len(packages) != 1:
-            last = (done.stderr.strip().splitlines() or ["no word of it"])[-1]
+        if process.returncode or len(packages) != 1:
+            last = (process.stderr.strip().splitlines() or ["no word of it"])[-1]
             raise NinjaGameError(f"npm could not get Pyodide ({last}); {_hint()}")
         kept.mkdir(parents=True, exist_ok=True)
         with tarfile.open(packages[0]) as package:

@@ -3,8 +3,8 @@
 import pygame
 import pytest
 
+from ninja_game.editor.brush import Tool
 from ninja_game.editor.palette import OBJECT_TYPES
-from ninja_game.editor.tools import TOOLS
 from ninja_game.play.editor.properties import key_table
 from ninja_game.ui.widgets import Label
 from tests.support.draw_log import drawn
@@ -24,7 +24,7 @@ def table(room: Maker) -> dict[str, str]:
     return lines
 
 
-@pytest.mark.parametrize("tool, letter", tuple(zip(TOOLS, "briofvk", strict=True)))
+@pytest.mark.parametrize("tool, letter", tuple(zip(Tool, "briofvk", strict=True)))
 def test_each_tool_has_its_keys_beside_those_of_what_is_in_hand(room: Maker, tool: str, letter: str) -> None:
     for key in ("9", *(f"shift+{kind.key}" for kind in OBJECT_TYPES)):
         room.press(key, letter)

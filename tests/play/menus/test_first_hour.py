@@ -120,7 +120,7 @@ def test_text_of_the_start_hides_neither_a_thing_nor_gold_nor_the_way(driver: Me
         hud = Hud(app.theme)
         box = hud.box(shown)
         card = hud.draw_message(app.surface, box)
-        bands += abs(box.y - 28) < 1 or abs(box.y + box.high * len(box.lines) + 19 - 573) < 1
+        bands += abs(box.y - 28) < 1 or abs(box.y + box.line_height * len(box.lines) + 19 - 573) < 1
         texts += 1
         way, places = Simulation(each.named.level), [(o.x, o.y) for o in play.attempt.simulation.world.objects[1:]]
         for keys in run.inputs:

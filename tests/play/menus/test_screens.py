@@ -16,7 +16,7 @@ from ninja_game.play.level.level_play import Phase
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menu_screen import MenuScreen, Question
-from ninja_game.play.menus.browser import COMMENT_HIGH, SIDE_WIDTH, Browser
+from ninja_game.play.menus.browser import COMMENT_HEIGHT, SIDE_WIDTH, Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.panels.help import HelpScreen
@@ -329,5 +329,5 @@ def test_text_of_every_level_is_seen_whole_in_the_list(driver: MenuDriver) -> No
     for named in Pack(data_folder("levels")).levels.values():
         texts = (named.comment, f"Teaches: {named.teaches}")
         lines = [line for text in texts for line in wrapped(theme, text, SIDE_WIDTH, 10.5)]
-        cut += [named.name] * (13.5 * len(lines) > COMMENT_HIGH)
+        cut += [named.name] * (13.5 * len(lines) > COMMENT_HEIGHT)
     assert not cut

@@ -18,7 +18,8 @@ def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
     if x1 <= x and y1 <= y and right <= x2 and bottom <= y2:
         return make(x, y, right - x, bottom - y)
     surface.overdrawn = True
-    x1, y1, x2, y2 = max(x, x1), max(y, y1), min(right, x2), min(bottom, y2)
+    x1, y1 = max(x, x1), max(y, y1)
+    x2, y2 = min(right, x2), min(bottom, y2)
     return make(x1, y1, x2 - x1, y2 - y1) if x1 < x2 and y1 < y2 else make(x, y, 0, 0)
 
 
@@ -81,7 +82,8 @@ def line(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> 
     half = width // 2
     more = (half - 1 + width % 2, half) if width > 1 else (0, 0)
     steep = abs(ax - bx) <= abs(ay - by)
-    left, right, top, bottom = min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)
+    left, right = min(ax, bx), max(ax, bx)
+    top, bottom = min(ay, by), max(ay, by)
     if steep:
         left, right = left - more[0], right + more[1]
     else:
@@ -96,8 +98,8 @@ def line(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> 
 def lines(surface: Surface, color: Any, closed: bool, points: Sequence[Any], width: int = 1) -> Rect:
     ends = [*points[1:], points[0]] if closed else points[1:]
     drawn = [line(surface, color, start, end, width) for start, end in zip(points, ends, strict=False)]
-    seen = [rect for rect in drawn if rect.w]
-    return seen[0].unionall(seen) if seen else make(int(points[0][0]), int(points[0][1]), 0, 0)
+    areas = [rect for rect in drawn if rect.w]
+    return areas[0].unionall(areas) if areas else make(int(points[0][0]), int(points[0][1]), 0, 0)
 
 
 def aaline(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> Rect:

@@ -150,8 +150,8 @@ class Surface:
         if special_flags == BLEND_RGBA_MULT:
             self.opacity *= colour[3] / 255
             return self.get_rect()
-        shown = self.get_rect() if rect is None else Rect(rect).clip(self.get_rect())
-        area = shown.clip(self.get_clip())
+        filled = self.get_rect() if rect is None else Rect(rect).clip(self.get_rect())
+        area = filled.clip(self.get_clip())
         if area.w:
             if self._own is not None and rect is None:
                 del self._own[:]
@@ -160,7 +160,7 @@ class Surface:
                 # A drawing that erases cannot be copied on top of another one.
                 self.overdrawn = self.overdrawn or number & 255 < 255
                 self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
-        return shown if shown.w else make(0, 0, 0, 0)
+        return filled if filled.w else make(0, 0, 0, 0)
 
     def scroll(self, dx: int, dy: int) -> None:
         before = self.copy()
