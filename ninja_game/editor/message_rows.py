@@ -38,7 +38,7 @@ DETAILS = {
 """What some moments may need besides: an example, a hint, and what the field is called."""
 
 
-class Field(StrEnum):
+class MessageField(StrEnum):
     """The fields of a row, in the order of the page. Not every moment has a DETAIL."""
 
     MOMENT = "moment"
@@ -81,23 +81,23 @@ class MessageRow:
         return f"{self.moment}{shown_for}{IMPORTANT * self.important}: {header_form(self.text)}"
 
     @property
-    def problem(self) -> tuple[Field, str]:
+    def problem(self) -> tuple[MessageField, str]:
         """Which field of the row is wrong, and the problem in words; '' for none."""
         moment = self.moment
         if self.when in DETAILS and (":" in moment or not _fits(f"{moment}: a text")):
-            return Field.DETAIL, DETAILS[self.when][1]
+            return MessageField.DETAIL, DETAILS[self.when][1]
         if not _fits(replace(self, when=Moment.START, detail="", text="a text").source):
-            return Field.TIME, _BAD_TIME
+            return MessageField.TIME, _BAD_TIME
         if not self.text.strip():
-            return Field.TEXT, "Type what is said, or remove the message"
+            return MessageField.TEXT, "Type what is said, or remove the message"
         if SEPARATOR in self.text:
-            return Field.TEXT, f"A message has no {SEPARATOR}"
-        return Field.TEXT, self.unknown and f"{self.unknown} is not one of {listed(WORDS)}"
+            return MessageField.TEXT, f"A message has no {SEPARATOR}"
+        return MessageField.TEXT, self.unknown and f"{self.unknown} is not one of {listed(WORDS)}"
 
     @property
     def parsed(self) -> LevelMessage | None:
         """The message, with another text; None at the start, and for a moment that is wrong."""
-        timeless = self.when == Moment.START or self.problem[0] == Field.DETAIL
+        timeless = self.when == Moment.START or self.problem[0] == MessageField.DETAIL
         return None if timeless else parse_messages(f"{self.moment}: a text")[0]
 
     def put_at(self, cell: Cell, size: Cell) -> None:

@@ -58,7 +58,7 @@ _MOMENTS = (
 class LevelMessage(NamedTuple):
     """A message of a level to its player.
 
-    ``number``: of deaths, of pieces of gold, or of seconds.
+    ``when``: what it waits for. ``number``: of deaths, of pieces of gold, or of seconds.
     ``text``: up to MAX_MESSAGE_LINES lines.
     ``cell``: column and row of the place, or of the one switch or gold. ``seconds``: how long it is shown; 0: the usual
     time. ``size``: of its frame, in cells: of an even number there is one more left of, or above, its cell.

@@ -21,7 +21,7 @@ from ninja_game.sim.schema.world_fields import CAPACITY
 from ninja_game.sim.states import LOCKED, TRAP
 
 Squares = dict[tuple[float, float], set[tuple[float, float]]]  # places, px, by the square (column, row) that holds them
-Ends = list[tuple[str, Squares, set[int]]]
+OddPlaces = list[tuple[str, Squares, set[int]]]
 """Exits, their switches and the start: a name, the places, and the kinds that are odd there."""
 
 _FIXED = {kinds.LAUNCH_PAD, kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER}
@@ -216,7 +216,7 @@ def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
             return
 
 
-def oddities(spec: ObjectSpec, ground: Ground, ends: Ends) -> Iterator[Finding]:
+def oddities(spec: ObjectSpec, ground: Ground, ends: OddPlaces) -> Iterator[Finding]:
     """Find the oddities of an object in the level of ``ground``."""
     if not well_formed(spec):
         count, needed = len(spec.values), kinds.VALUE_COUNTS[spec.kind]
@@ -231,7 +231,7 @@ def oddities(spec: ObjectSpec, ground: Ground, ends: Ends) -> Iterator[Finding]:
         yield from _CHECKS[spec.kind](spec, ground)
 
 
-def _ends(ground: Ground) -> Ends:
+def _ends(ground: Ground) -> OddPlaces:
     exits = [spec.values for spec in ground.objects if spec.kind == kinds.EXIT and well_formed(spec)]
     starts = [spec.values for spec in ground.objects if spec.kind == kinds.NINJA][-1:] if ground.start else []
     return [
@@ -241,7 +241,7 @@ def _ends(ground: Ground) -> Ends:
     ]
 
 
-def _place_oddities(spec: ObjectSpec, ground: Ground, ends: Ends) -> Iterator[Finding]:
+def _place_oddities(spec: ObjectSpec, ground: Ground, ends: OddPlaces) -> Iterator[Finding]:
     x, y = spec.values[:2]
     if isnan(x) or isnan(y):
         return

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ninja_game.editor.message_rows import GRIP, Field, MessageRow, messages_of, moved_frame, sizing
+from ninja_game.editor.message_rows import GRIP, MessageField, MessageRow, messages_of, moved_frame, sizing
 from ninja_game.formats.messages import LevelMessage, Moment
 from ninja_game.sim.rules import CELL
 
@@ -19,15 +19,18 @@ def test_every_message_comes_back_as_it_was() -> None:
 @pytest.mark.parametrize(
     "row, problem",
     [
-        (MessageRow(Moment.AT, "12,5", "x", "9,5"), (Field.TEXT, "")),
-        (MessageRow(Moment.START, "", " "), (Field.TEXT, "Type what is said, or remove the message")),
-        (MessageRow(Moment.START, "", "a | b"), (Field.TEXT, "A message has no |")),
-        (MessageRow(Moment.START, "", "x", "0"), (Field.TIME, "Seconds: from 0.1 to 99.9, or empty")),
-        (MessageRow(Moment.DEATH, "0", "x"), (Field.DETAIL, "How many deaths: a number from 1 to 99")),
-        (MessageRow(Moment.DEATH, "3: x | start", "x"), (Field.DETAIL, "How many deaths: a number from 1 to 99")),
+        (MessageRow(Moment.AT, "12,5", "x", "9,5"), (MessageField.TEXT, "")),
+        (MessageRow(Moment.START, "", " "), (MessageField.TEXT, "Type what is said, or remove the message")),
+        (MessageRow(Moment.START, "", "a | b"), (MessageField.TEXT, "A message has no |")),
+        (MessageRow(Moment.START, "", "x", "0"), (MessageField.TIME, "Seconds: from 0.1 to 99.9, or empty")),
+        (MessageRow(Moment.DEATH, "0", "x"), (MessageField.DETAIL, "How many deaths: a number from 1 to 99")),
+        (
+            MessageRow(Moment.DEATH, "3: x | start", "x"),
+            (MessageField.DETAIL, "How many deaths: a number from 1 to 99"),
+        ),
     ],
 )
-def test_the_field_that_is_wrong_is_named_with_its_problem(row: MessageRow, problem: tuple[Field, str]) -> None:
+def test_the_field_that_is_wrong_is_named_with_its_problem(row: MessageRow, problem: tuple[MessageField, str]) -> None:
     assert row.problem == problem
 
 

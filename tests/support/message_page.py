@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import pygame
 
-from ninja_game.editor.message_rows import Field, MessageRow
+from ninja_game.editor.message_rows import MessageField, MessageRow
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.play.editor.message_picture import PICTURE
 from ninja_game.play.editor.messages_screen import MessagesScreen
@@ -57,7 +57,7 @@ def texts_of(screen: MessagesScreen) -> str:
     return "".join(message.text for message in screen.edited.rows)
 
 
-def select(maker: Maker, row: int, field: Field = Field.TEXT) -> None:
+def select(maker: Maker, row: int, field: MessageField = MessageField.TEXT) -> None:
     """Click on a message in the list, then into a field of it."""
     screen = maker.shown(MessagesScreen)
     x, y, _, h = screen.list.row_area(row)

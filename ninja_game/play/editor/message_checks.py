@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import EditedMessages, Field, MessageRow
+from ninja_game.editor.message_rows import EditedMessages, MessageField, MessageRow
 from ninja_game.formats.messages import LevelMessage, arrow_targets, parse_messages
 from ninja_game.levels.findings import LEVEL_WORDINGS, Finding
 from ninja_game.levels.ground import Ground
@@ -100,7 +100,7 @@ class MessageChecks:
         if row.unknown:
             return f"There is no {row.unknown[:20]}: the words are below"
         if problem:
-            is_typed = field == Field.TIME or (field == Field.DETAIL and row.detail)
+            is_typed = field == MessageField.TIME or (field == MessageField.DETAIL and row.detail)
             return problem if self.refused or is_typed else ""
         for finding in self._unseen(row):
             return f"Never shown: {finding.text.rpartition(': ')[2]}"

@@ -7,7 +7,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.editor.message_rows import DETAILS, EditedMessages, Field, MessageRow
+from ninja_game.editor.message_rows import DETAILS, EditedMessages, MessageField, MessageRow
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGE_LINES, WORDS, Moment
 from ninja_game.play.app import App
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
@@ -56,7 +56,7 @@ class MessageForm:
         edited: EditedMessages,
         new_place: Cell,
         changed: Callable[[], object],
-        focus: Callable[[Field], object],
+        focus: Callable[[MessageField], object],
     ) -> None:
         self.app = app
         self.fields: dict[str, Widget] = {}
@@ -81,24 +81,26 @@ class MessageForm:
 
         area = _LEFT, _TOP, 114 if takes_detail else 254, 26
         ask = partial(self.ask_moment, partial(self.change_moment, row), row.when)
-        fields[Field.MOMENT] = Button(area, f"{MOMENT_TEXTS[row.when][0]}...", ask)
+        fields[MessageField.MOMENT] = Button(area, f"{MOMENT_TEXTS[row.when][0]}...", ask)
 
         if takes_detail:
             prompt, hint, _ = DETAILS[row.when]
             put = partial(setattr, row, "detail")
-            fields[Field.DETAIL] = TextEntry((160, _TOP, 130, 26), prompt, row.detail, put, longest=11, hint=hint)
+            fields[MessageField.DETAIL] = TextEntry(
+                (160, _TOP, 130, 26), prompt, row.detail, put, longest=11, hint=hint
+            )
 
         usual = shown_ticks(row.when, len(self._edited.together(row)), row.text) // TICKS_PER_SECOND
         prompt = "while there" if row.when == Moment.AT else f"auto ({usual} s)"
         put = partial(setattr, row, "time")
-        fields[Field.TIME] = TextEntry((300, _TOP, 92, 26), prompt, row.time, put, longest=6, hint=_TIME_HINT)
+        fields[MessageField.TIME] = TextEntry((300, _TOP, 92, 26), prompt, row.time, put, longest=6, hint=_TIME_HINT)
 
         mark = "Yes" if row.important else "No"
-        fields[Field.IMPORTANT] = Button((402, _TOP, 66, 26), mark, self._turn_mark, hint=_IMPORTANT_HINT)
+        fields[MessageField.IMPORTANT] = Button((402, _TOP, 66, 26), mark, self._turn_mark, hint=_IMPORTANT_HINT)
 
         area = _LEFT, _TOP + 31, _WIDTH, 72
         put = partial(self._put_text, row)
-        fields[Field.TEXT] = text = TextArea(
+        fields[MessageField.TEXT] = text = TextArea(
             area, "What is said", row.text, put, longest=MAX_LETTERS, most_lines=MAX_MESSAGE_LINES
         )
         text.hint = _text_hint(row)
@@ -107,7 +109,7 @@ class MessageForm:
 
     def _put_text(self, row: MessageRow, typed: str) -> None:
         row.text = typed
-        self.fields[Field.TEXT].hint = _text_hint(row)
+        self.fields[MessageField.TEXT].hint = _text_hint(row)
 
     def ask_moment(self, choose: Callable[[Moment], object], at: Moment) -> None:
         """Ask for a moment, beginning ``at`` one."""
@@ -128,12 +130,12 @@ class MessageForm:
 
     def _put_word(self, number: int) -> None:
         """Put a word in braces into the text, at its cursor."""
-        field = self.fields[Field.TEXT]
+        field = self.fields[MessageField.TEXT]
         word = f"{{{WORDS[number]}}}"
         if isinstance(field, TextEntry) and len(field.text + word) <= MAX_LETTERS:
             field.edited.go(field.edited.cursor)
             field.text_event(pygame.Event(pygame.TEXTINPUT, text=word))
-            self._focus(Field.TEXT)
+            self._focus(MessageField.TEXT)
         else:
             self.app.notify(f"{word} does not fit: {MAX_LETTERS} letters are the most")
 

@@ -8,7 +8,7 @@ from functools import partial
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import EditedMessages, Field, common_length
+from ninja_game.editor.message_rows import EditedMessages, MessageField, common_length
 from ninja_game.formats.messages import IMPORTANT, MAX_MESSAGES, Moment
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import App
@@ -79,13 +79,13 @@ class MessagesScreen(MenuScreen):
         if at is not None and at < len(self.edited.rows):
             self.select(at)
 
-    def select(self, number: int, field: Field = Field.TEXT) -> None:
+    def select(self, number: int, field: MessageField = MessageField.TEXT) -> None:
         """Select a message, with the focus on a field of it."""
         self.edited.index = number
         self.enter()
         self.focus_on_field(field)
 
-    def focus_on_field(self, field: Field) -> None:
+    def focus_on_field(self, field: MessageField) -> None:
         self.focus = self.form.fields[field]
         self.redraw = True
 
@@ -192,7 +192,7 @@ class MessagesScreen(MenuScreen):
             if problem:
                 self.checks.refused = True
                 self.select(number, field)
-                if field != Field.TEXT and isinstance(self.focus, TextEntry):
+                if field != MessageField.TEXT and isinstance(self.focus, TextEntry):
                     self.focus.edited.select_all()
                 return False
         return True
@@ -227,7 +227,7 @@ class MessagesScreen(MenuScreen):
         typed = getattr(raw, names.get(raw.type, ""), "")
         is_text = typed.strip() and typed.isprintable()
         if is_text and self.edited.selected and not isinstance(self.focus, TextEntry):
-            self.focus_on_field(Field.TEXT)
+            self.focus_on_field(MessageField.TEXT)
         return super().capture(event)
 
     def _command_of(self, keys: str) -> Action | None:

@@ -8,7 +8,7 @@ from unittest.mock import patch
 import pygame
 import pytest
 
-from ninja_game.editor.message_rows import Field, MessageRow
+from ninja_game.editor.message_rows import MessageField, MessageRow
 from ninja_game.formats.messages import MAX_LETTERS, MAX_MESSAGES, WORDS, Moment, parse_messages
 from ninja_game.play.editor.message_form import MOMENT_TEXTS
 from ninja_game.play.editor.message_picture import PICTURE
@@ -45,7 +45,7 @@ def with_time_in_hand(maker: Maker) -> MessagesScreen:
     screen = opened(maker)
     add(maker, "on")
     assert "text 'auto (12 s)'" in drawn(maker.app)
-    select(maker, 0, Field.TIME)
+    select(maker, 0, MessageField.TIME)
     return screen
 
 
@@ -54,7 +54,7 @@ def test_messages_are_made_row_by_row_and_a_test_says_them(room: Maker) -> None:
     room.shown(MessagesScreen)
     add(room, "run")
     add(room, "")
-    select(room, 1, Field.MOMENT)
+    select(room, 1, MessageField.MOMENT)
     room.choose("Exit opens")
     add(room, "on")
     select(room, 1)
@@ -105,7 +105,7 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
     room.type("0")
     room.choose("OK")
     assert screen.checks.refused
-    assert screen.focus is screen.form.fields[Field.TIME]
+    assert screen.focus is screen.form.fields[MessageField.TIME]
     room.press("backspace")
     room.type("25")
     room.press("return")
@@ -117,7 +117,7 @@ def test_all_messages_are_seen_in_a_list_in_which_one_is_selected(room: Maker) -
     screen = opened(room)
     add(room, *"abcdefghijklmnop")
     assert not room.button("Add").enabled
-    assert (screen.list.index, screen.focus) == (15, screen.form.fields[Field.TEXT])
+    assert (screen.list.index, screen.focus) == (15, screen.form.fields[MessageField.TEXT])
     assert "".join(row.words for row in rows_shown(screen)) == "abcdefghijklmnop"
     assert screen.list.visible_lines >= MAX_MESSAGES
     screen.edited.rows[5].text = ""
@@ -125,20 +125,22 @@ def test_all_messages_are_seen_in_a_list_in_which_one_is_selected(room: Maker) -
     room.mouse(x + 60, y + h / 2)
     assert (screen.list.index, screen.focus) == (3, screen.list)
     room.press("down", "down", "up")
-    assert (screen.list.index, getattr(screen.form.fields[Field.TEXT], "text", "")) == (4, "e")
+    assert (screen.list.index, getattr(screen.form.fields[MessageField.TEXT], "text", "")) == (4, "e")
     room.mouse(x + 60, y + h / 2, click=False)
     assert screen.list.index == 4, "the way of the mouse to the fields selects nothing"
     room.mouse(x + 60, y + h / 2)
     assert (screen.list.index, screen.focus) == (3, screen.list)
     room.mouse(x + 60, y + h / 2)
-    assert (screen.list.index, screen.focus) == (3, screen.form.fields[Field.TEXT]), "a second click leads to the text"
+    assert (screen.list.index, screen.focus) == (3, screen.form.fields[MessageField.TEXT]), (
+        "a second click leads to the text"
+    )
     for notches, number in ((-1, 4), (1, 3), (2, 1), (9, 0)):
         room.wheel(notches, x + 9, 450)
         assert screen.list.index == number
     room.wheel(-1, *in_picture(9, 9))
     assert screen.list.index == 0
     room.choose("OK")
-    assert (screen.list.index, screen.focus) == (5, screen.form.fields[Field.TEXT]), "what is wrong is shown"
+    assert (screen.list.index, screen.focus) == (5, screen.form.fields[MessageField.TEXT]), "what is wrong is shown"
     room.choose("Remove")
     assert texts_of(screen) == "abcdeghijklmnop"
 
@@ -261,7 +263,7 @@ def test_messages_are_copied_and_moved_by_buttons_and_keys(room: Maker) -> None:
     room.type("d")
     assert texts_of(screen) == "accdb", "a copy of its own"
     room.chord("down", pygame.KMOD_LCTRL)
-    assert (texts_of(screen), screen.list.index, screen.focus) == ("acbcd", 3, screen.form.fields[Field.TEXT])
+    assert (texts_of(screen), screen.list.index, screen.focus) == ("acbcd", 3, screen.form.fields[MessageField.TEXT])
     room.chord("down", pygame.KMOD_LCTRL)
     assert texts_of(screen) == "acbcd", "it is the last"
     with patch.object(pygame.key, "get_mods", lambda: pygame.KMOD_SHIFT):
@@ -296,7 +298,7 @@ def test_names_of_moments_and_buttons_are_never_cut(room: Maker, size: int, widt
     screen = opened(room, "lock for 1 s: a | start: b | at 1,1: c | gold: d | switch: e")
     theme = Theme(room.app.theme.palette, Canvas((width, width * 600 // 792)), size)
     names = [f"{name}..." for name, _ in MOMENT_TEXTS.values()]
-    moment = screen.form.fields[Field.MOMENT]
+    moment = screen.form.fields[MessageField.MOMENT]
     buttons = [(text, moment) for text in names] + [(w.text, w) for w in screen.widgets if isinstance(w, Button)]
     for text, button in buttons:
         assert isinstance(button, Button)
@@ -343,7 +345,7 @@ def test_enter_begins_a_new_line_in_the_field_the_file_and_the_level(room: Maker
         room.press("return")
     assert room.top() is screen
     assert screen.edited.rows[0].text == "Run\njump\nand see", "three lines are the most"
-    field = screen.form.fields[Field.TEXT]
+    field = screen.form.fields[MessageField.TEXT]
     assert isinstance(field, TextArea)
     shown = drawn(room.app)
     for line in ("Run", "jump", "and see"):
@@ -363,7 +365,7 @@ def test_an_empty_last_line_has_the_cursor(room: Maker) -> None:
     room.type("Run")
     room.press("return")
     drawn(room.app)
-    field = screen.form.fields[Field.TEXT]
+    field = screen.form.fields[MessageField.TEXT]
     assert isinstance(field, TextArea)
     assert [first for first, _ in field._rows] == [0, 4]
     assert field._cursor_row == 1
@@ -384,7 +386,7 @@ def test_gold_is_counted_and_all_of_it_has_a_moment_of_its_own(room: Maker) -> N
     assert "Never shown" not in drawn(room.app)
     room.choose("All gold taken...")
     room.choose("Gold is taken")
-    room.mouse(*screen.form.fields[Field.DETAIL].centre)
+    room.mouse(*screen.form.fields[MessageField.DETAIL].centre)
     room.type("3")
     assert screen.edited.source == "gold 3: Well done"
     assert "Never shown: the level has 1 piece of gold" in words(room)
@@ -405,7 +407,7 @@ def test_a_long_text_is_seen_whole_and_up_and_down_go_through_its_lines(room: Ma
     text = "This text has many words and all of them are seen, since the field has three lines for its 110 letters"
     screen = opened(room)
     show(screen, MessageRow(Moment.START, "", text), MessageRow(Moment.START, "", "y"))
-    field = screen.form.fields[Field.TEXT]
+    field = screen.form.fields[MessageField.TEXT]
     assert isinstance(field, TextArea)
     screen.redraw = True
     room.frames()
@@ -449,7 +451,7 @@ def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_o
     room.type("abc")
     assert "Message 1 is wrong. Seconds: from 0.1 to 99.9, or empty" in words(room)
     room.choose("OK")
-    assert screen.focus is screen.form.fields[Field.TIME]
+    assert screen.focus is screen.form.fields[MessageField.TIME]
     for letter in "1,5":
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
     room.frames()
@@ -461,7 +463,7 @@ def test_seconds_may_have_a_part_and_a_wrong_number_is_named_at_once_and_typed_o
 def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(room: Maker) -> None:
     screen = opened(room, "start: a | start: b | start: c | start: d | after 20 s: e")
     for typed, problem in (("2.55", "How many seconds: a number from 0.1 to 99.9"), ("2,5", "")):
-        select(room, 4, Field.DETAIL)
+        select(room, 4, MessageField.DETAIL)
         room.chord("a", pygame.KMOD_LCTRL)
         for letter in typed:
             pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=letter))
@@ -470,7 +472,7 @@ def test_after_seconds_takes_a_part_and_a_wrong_number_is_said_where_one_looks(r
         select(room, 0)
         room.choose("Test")
         if problem:
-            assert (screen.list.index, screen.focus) == (4, screen.form.fields[Field.DETAIL])
+            assert (screen.list.index, screen.focus) == (4, screen.form.fields[MessageField.DETAIL])
             assert f"Message 5 is wrong. {problem}" in words(room)
     play = room.shown(PlaytestScreen).play
     room.press("escape")
@@ -529,7 +531,7 @@ def test_undo_and_redo_take_back_everything_on_the_page_one_step_at_a_time(room:
     room.choose("Add")
     room.choose("Exit opens")
     done(partial(room.type, "Now"))
-    select(room, 0, Field.TIME)
+    select(room, 0, MessageField.TIME)
     done(partial(room.type, "5"))
     select(room, 0)
     done(partial(room.press, "backspace"))
@@ -557,7 +559,7 @@ def test_undo_of_a_text_keeps_the_focus_and_puts_the_cursor_where_it_changes(roo
     room.type(" open")
     assert screen.edited.rows[0].text == "to the open exit"
     room.chord("z", pygame.KMOD_LCTRL)
-    field = screen.form.fields[Field.TEXT]
+    field = screen.form.fields[MessageField.TEXT]
     assert isinstance(field, TextEntry)
     assert (field.text, field.edited.cursor, screen.focus) == ("to the exit", 6, field)
     select(room, 1)
@@ -585,9 +587,9 @@ def test_words_in_braces_are_put_into_the_text_at_its_cursor_by_mouse_and_keys(r
     room.press("home", *["right"] * 6)
     x, y, w, h = screen.form.words.row_area(WORDS.index("jump"))
     room.mouse(x + w / 2, y + h / 2)
-    assert (screen.edited.rows[0].text, screen.focus) == ("Press {jump} now", screen.form.fields[Field.TEXT])
+    assert (screen.edited.rows[0].text, screen.focus) == ("Press {jump} now", screen.form.fields[MessageField.TEXT])
     room.press("shift+tab", "tab")
-    field = screen.form.fields[Field.TEXT]
+    field = screen.form.fields[MessageField.TEXT]
     assert isinstance(field, TextEntry)
     assert (field.edited.selected, screen.focus) == ("Press {jump} now", field)
     room.press("tab")
@@ -612,7 +614,7 @@ def test_tab_leads_from_the_list_through_the_fields_to_ok(room: Maker) -> None:
         way.append(screen.focus)
         room.press("tab")
     of_list, ends = [room.button(name) for name in BUTTONS[:5]], [room.button(name) for name in BUTTONS[5:]]
-    assert [*screen.form.fields] == [*Field, "words"]
+    assert [*screen.form.fields] == [*MessageField, "words"]
     assert way == [screen.list, *of_list, *screen.form.fields.values(), *ends]
     assert screen.focus is screen.list
 
@@ -644,7 +646,7 @@ def test_nothing_beside_the_fields_is_cut_in_any_size_of_text(doors: Maker, size
             assert not [line for line in aside if "..." in line]
             lowest = max(float(re.findall(r" at 484,([\d.]+)", line)[0]) for line in aside)
             assert lowest < 514, "above the buttons"
-            field = screen.form.fields[Field.TEXT]
+            field = screen.form.fields[MessageField.TEXT]
             assert isinstance(field, TextArea)
             assert len(field._rows) <= field._lay_out(doors.app.theme, field.area[0] + PAD, field.area[2] - 20)[1]
 
@@ -656,19 +658,19 @@ def test_a_problem_of_a_message_leads_to_it_on_the_page(room: Maker) -> None:
     x, y, w, _ = LAYOUT.findings
     room.mouse(x + w / 3, y + 9)
     screen = room.shown(MessagesScreen)
-    assert (screen.list.index, screen.focus) == (1, screen.form.fields[Field.TEXT])
+    assert (screen.list.index, screen.focus) == (1, screen.form.fields[MessageField.TEXT])
 
 
 def test_the_focus_stays_in_the_field_of_its_name_when_another_message_has_fewer(room: Maker) -> None:
     screen = opened(room, "at 5,5: a | start: b")
-    for field in (Field.MOMENT, Field.TIME, Field.TEXT):
+    for field in (MessageField.MOMENT, MessageField.TIME, MessageField.TEXT):
         select(room, 0, field)
-        if field == Field.MOMENT:
+        if field == MessageField.MOMENT:
             room.choose("Cancel")
-        room.wheel(-1, *screen.form.fields[Field.TEXT].centre)
+        room.wheel(-1, *screen.form.fields[MessageField.TEXT].centre)
         assert (screen.list.index, screen.focus) == (1, screen.form.fields[field])
-        room.wheel(1, *screen.form.fields[Field.TEXT].centre)
+        room.wheel(1, *screen.form.fields[MessageField.TEXT].centre)
         assert (screen.list.index, screen.focus) == (0, screen.form.fields[field])
-    select(room, 0, Field.DETAIL)
-    room.wheel(-1, *screen.form.fields[Field.TEXT].centre)
+    select(room, 0, MessageField.DETAIL)
+    room.wheel(-1, *screen.form.fields[MessageField.TEXT].centre)
     assert screen.focus is screen.list, "there is none of that name"

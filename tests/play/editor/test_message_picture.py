@@ -8,7 +8,7 @@ import pytest
 
 from ninja_game.editor import packs
 from ninja_game.editor.brush import Tool
-from ninja_game.editor.message_rows import Field, MessageRow
+from ninja_game.editor.message_rows import MessageField, MessageRow
 from ninja_game.editor.stamp import Stamp, with_stamp
 from ninja_game.formats.messages import MAX_LETTERS, Moment, level_text, parse_messages
 from ninja_game.levels.episodes import Mood
@@ -90,7 +90,7 @@ def test_a_click_in_the_picture_on_another_message_selects_it(room: Maker) -> No
     for cell, selected in (((20, 12), 1), ((6, 5), 0), ((10, 10), 0)):
         room.mouse(*in_picture(*cell))
         room.frames()
-        assert (screen.list.index, screen.focus) == (selected, screen.form.fields[Field.TEXT])
+        assert (screen.list.index, screen.focus) == (selected, screen.form.fields[MessageField.TEXT])
     assert [each.detail for each in screen.edited.rows] == ["10,10", "20,12", ""]
     select(room, 2)
     room.mouse(*in_picture(25, 3))
@@ -154,7 +154,7 @@ def test_two_clicks_on_a_bubble_open_its_message_and_draw_nothing(room: Maker) -
     room.drag(middle_of((12, 5)))
     room.drag(middle_of((12, 5)))
     screen = room.shown(MessagesScreen)
-    assert (screen.list.index, screen.focus) == (3, screen.form.fields[Field.TEXT])
+    assert (screen.list.index, screen.focus) == (3, screen.form.fields[MessageField.TEXT])
     assert room.draft == before
 
 
@@ -168,7 +168,7 @@ def test_two_clicks_on_the_bubble_beside_the_ninja_open_its_message(room: Maker)
     room.drag(bubble)
     room.drag(bubble)
     screen = room.shown(MessagesScreen)
-    assert (screen.list.index, screen.focus) == (2, screen.form.fields[Field.TEXT])
+    assert (screen.list.index, screen.focus) == (2, screen.form.fields[MessageField.TEXT])
     assert room.draft == before
 
 
@@ -176,7 +176,7 @@ def test_the_selected_message_lies_in_the_level_where_it_does_in_play(room: Make
     screen = opened(room, f"start: {LONG} | at 20,12: Here")
     room.frames()
     start = boxes[-1]
-    assert screen.form.fields[Field.TEXT].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", (
+    assert screen.form.fields[MessageField.TEXT].hint == "Enter begins a new line: 3 at most; Ctrl+Enter is OK", (
         "no braces in it"
     )
     select(room, 1)

@@ -7,7 +7,7 @@ from unittest.mock import patch
 import pytest
 
 from ninja_game.editor import packs
-from ninja_game.editor.message_rows import Field
+from ninja_game.editor.message_rows import MessageField
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.findings import PackFinding, pack_finding
 from ninja_game.play.editor.messages_screen import MessagesScreen
@@ -76,7 +76,7 @@ def test_a_problem_of_a_message_leads_to_the_message(desk: Desk) -> None:
     desk.choose("Go there")
     screen = desk.shown(MessagesScreen)
     assert (screen.list.index, screen.edited.rows[2].text) == (2, "Never")
-    assert screen.focus is screen.form.fields[Field.TEXT]
+    assert screen.focus is screen.form.fields[MessageField.TEXT]
     desk.choose("Cancel")
     assert desk.shown(EditorScreen).session.edited.source.path == level
     desk.leave_editor()
