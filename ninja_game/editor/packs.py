@@ -156,10 +156,10 @@ def bin_pack(path: Path, folder: Path) -> Path:
     return new
 
 
-def same_pack(pack: Pack, other: Pack) -> bool:
-    """Whether two packs have the same files, except certificates, which links shorten."""
+def same_pack(pack: Pack, other: Pack, *, whole: bool = False) -> bool:
+    """Whether two packs have the same files, unless ``whole`` except certificates, which links shorten."""
     one, two = (
-        {name: pack.files.text(name) for name in pack.files.own_names if not name.startswith(CERTIFICATES)}
+        {name: pack.files.text(name) for name in pack.files.own_names if whole or not name.startswith(CERTIFICATES)}
         for pack in (pack, other)
     )
     return one == two

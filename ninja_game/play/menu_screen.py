@@ -18,7 +18,7 @@ from ninja_game.ui.list_view import ListView
 from ninja_game.ui.scenery import draw_scenery
 from ninja_game.ui.text_entry import TextEntry
 from ninja_game.ui.theme import Area, Theme, contains_point, wrapped
-from ninja_game.ui.widgets import Button, Widget
+from ninja_game.ui.widgets import Button, Label, Widget
 
 _FIRST_REPEAT_MS, _REPEAT_MS, _TEXT_REPEAT_MS = 350, 70, 40
 """A held direction or a key in a text repeats: after the first time, then at the other intervals, ms."""
@@ -455,8 +455,11 @@ class Question(Menu):
         super().__init__(app, title, [(CANCEL[0], nothing, hint), (yes, action, hint)])
 
 
+_LABEL = 16  # px above a field, for its prompt
+
+
 class FormPanel(Menu):
-    """Fields to fill in above two buttons. ``fields``: prompt, text, most characters.
+    """Fields to fill in above two buttons. ``fields``: prompt, text, most characters; prompts stand above the fields.
 
     The text of the first field is a proposal. Several fields are not left without a question once they are changed.
     """
@@ -471,20 +474,19 @@ class FormPanel(Menu):
     ) -> None:
         self.texts = [text for _, text, _ in fields]
         self._fields = fields
+        self._label = _LABEL if any(prompt for prompt, _, _ in fields) else 0
+        self.head = Menu.head + (40 + self._label) * len(fields)
         super().__init__(app, title, [(yes, lambda: action(self.texts), ""), CANCEL])
 
-    def rows(self) -> list[MenuRow]:
-        """The buttons, below one empty row per field."""
-        return [("", nothing, "")] * len(self._fields) + self._rows
-
     def build(self) -> Sequence[Widget]:
-        (x, y, w, _), height, side = self._box, self.row_height, self.side
-        entries = []
+        (x, y, w, _), side = self._box, self.side
+        entries, labels = [], []
         for k, ((prompt, text, longest), now) in enumerate(zip(self._fields, self.texts, strict=True)):
-            area = x + side, y + self.head + height * k, w - 2 * side, 30
-            put = partial(self.texts.__setitem__, k)
-            entries.append(TextEntry(area, prompt, now, put, longest=longest, proposed=k == 0 and now == text))
-        return [*entries, *list(super().build())[len(entries) :]]
+            left, top, wide = x + side, y + Menu.head + (40 + self._label) * k, w - 2 * side
+            area, put = (left, top + self._label, wide, 30), partial(self.texts.__setitem__, k)
+            entries.append(TextEntry(area, "", now, put, longest=longest, proposed=k == 0 and now == text))
+            labels.append(Label((left, top, wide, self._label), prompt, size=9.5, faint=True))
+        return [*entries, *super().build(), *labels]
 
     def act(self, action: str, *, held: bool = False) -> None:
         if action == "confirm" and isinstance(self.focus, TextEntry):

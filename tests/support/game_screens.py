@@ -28,10 +28,8 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.main_menu import MainMenu
-from ninja_game.play.menu_screen import nothing
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.good_levels import GoodLevelsScreen
-from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.pack_list import PackList
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.panels.help import HelpScreen
@@ -457,11 +455,14 @@ def _packs(driver: MenuDriver) -> Iterator[str]:
     driver.frames(30)
     yield "packs-preview"
     driver.press("escape")
-    assert screen.pack
-    driver.app.push(PackCard(driver.app, screen.pack, [("Play", nothing, "")]))
+    (folder / "received").touch()
+    screen.enter()
     driver.frames(30)
     yield "packs-card"
-    driver.press("escape")
+    (folder / "received").unlink()
+    screen.enter()
+    driver.wait(lambda: screen.status.present, "the problems are known")
+    driver.frames(2)
     driver.carry(screen.shelves.row_area(2), screen.shelves.row_area(9), drop=False)
     yield "packs-dragging"
     driver.press("escape")

@@ -55,6 +55,7 @@ class PackFiles:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self._root = ""
         self._zip: ZipFile | None = None
         self._entries: dict[str, ZipInfo] = {}
         self._texts: dict[str, str] = {}
@@ -82,6 +83,7 @@ class PackFiles:
         # Many zips contain the folder instead of its files.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
         root = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
+        self._root = PurePosixPath(root).name
         if others := [name for name in sorted(set(indexes)) if name != root + INDEX]:
             self.problems.append(f"{self.place(others[0])}: a second index; {root + INDEX} is the one that is read")
         keys = Counter(name_key(entry.filename) for entry in entries)
@@ -99,6 +101,11 @@ class PackFiles:
         return [name for name in self.names if LEVEL_FILES.fullmatch(name)]
 
     @property
+    def folder(self) -> str:
+        """The name of the folder, in a zip of the one that was packed."""
+        return self._root or self.path.resolve().name.removesuffix(".zip")
+
+    @property
     def own_names(self) -> list[str]:
         """The names of a pack's own files: index, par times, levels, certificates."""
         replays = [name for name in self.names if name.startswith(f"{CERTIFICATES}/") and name.endswith(REPLAY_SUFFIX)]
@@ -107,10 +114,9 @@ class PackFiles:
     def zipped(self) -> bytes:
         """The pack as a zip, the same bytes for the same files."""
         data = BytesIO()
-        folder = self.path.resolve().name.removesuffix(".zip")
         with ZipFile(data, "w", ZIP_DEFLATED) as file:
             for name in self.own_names:
-                entry = ZipInfo(f"{folder}/{name}")
+                entry = ZipInfo(f"{self.folder}/{name}")
                 entry.compress_type = ZIP_DEFLATED
                 file.writestr(entry, self.text(name))
         return data.getvalue()

@@ -98,7 +98,7 @@ class StatusLine(EditorPart):
 
 
 _REACH = "In 1 s, {}, the ninja can be where it is shaded, dies in the red; red lines: enemies; bars: last jumps"
-_NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for some minutes"
+_NO_REACH = "What is reached comes in a moment; the first time, what finds it is compiled for about half a minute"
 _TOOL_HINTS = {
     Tool.BRUSH: "Left button draws, right erases, middle picks; wheel zooms, middle drag moves. F1: help",
     Tool.RECTANGLE: "Drag a rectangle; right button erases. F1: help",

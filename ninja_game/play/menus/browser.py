@@ -106,7 +106,7 @@ class Browser(ThumbnailScreen):
         watch = self.watch_best, self.watch_author
         more = [self.change] if self._edit else []
         if self._packs:
-            more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Bundle your levels into packs"))
+            more.append(Button((368, 66, 52, 32), "Packs", self._packs, hint="Open, make and change packs"))
         return [*self.choosers(), self.play_button, self.practice, *watch, *more, self.link]
 
     def handle(self, event: InputEvent) -> None:

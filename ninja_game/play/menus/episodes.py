@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 import pygame
 
@@ -14,6 +15,7 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.level.screen import LevelScreen, play_level
 from ninja_game.play.menu_screen import CANCEL, Menu, MenuRow
+from ninja_game.play.menus.open_pack import open_pack
 from ninja_game.play.menus.problems import file_problems, problems_button
 from ninja_game.play.panels.settings import PRACTICE_HINT, setting_choice
 from ninja_game.play.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, tries_text
@@ -187,10 +189,9 @@ class EpisodeGrid(ThumbnailScreen):
         return self.pack.path in self.player.catalogue.more and not (self.pack.is_changeable or self.previews)
 
     def _keep(self) -> None:
-        """Receive the pack like a file that is dropped on the main menu, which lies below."""
+        """Receive the pack like a file that is dropped."""
         if path := self.pack.path:
             self.player.catalogue.more.remove(path)
-            self.app.pop()
             pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(path)))
 
     @property
@@ -206,20 +207,23 @@ class EpisodeGrid(ThumbnailScreen):
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
-        area = _LEFT, self._below, _WIDTH, 30
+        area = _LEFT, self._below, 208, 30
         self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
+        area = _LEFT + 214, self._below, 104, 30
+        self.opener = Button(area, "Open a pack...", partial(open_pack, self.app, "Open a pack"))
+        self.opener.hint = "That somebody sent you: a zip, or a link"
+        below = [] if self.previews else [self.practice, *in_page_or_not([], [self.opener])]
         problems = problems_button(self.app, (_LEFT, 546, _WIDTH, 18), lambda: self.problems)
         if self._is_lent:
             keep = Button((_SIDE + 178, 64, 90, 30), "Keep it", self._keep)
             keep.hint = "It goes among your packs, and is offered here whenever you play"
             problems += in_page_or_not([], [keep])
         if len(self.packs) < 2:
-            practice = [] if self.previews else [self.practice]
-            return [self.grid, self.play, *practice, self.rows, *problems]
+            return [self.grid, self.play, *below, self.rows, *problems]
         names = [("This game's levels" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice((_LEFT, 62, _WIDTH, 26), "", names, lambda: self.pack.key, self._set_pack)
-        choice.hint = "Level pack. Levels > Packs > Paste link takes in more, as does the folder in Settings > Play"
-        return [self.grid, self.play, choice, self.practice, self.rows, *problems]
+        choice.hint = "Level pack. Open a pack takes in more, as does the folder in Settings > Play"
+        return [self.grid, self.play, choice, *below, self.rows, *problems]
 
     def look_again(self) -> None:
         self.enter()
@@ -228,10 +232,14 @@ class EpisodeGrid(ThumbnailScreen):
     def _set_pack(self, key: object) -> None:
         self._look_for_packs(str(key))
         self.grid.arrange(self.pack.episodes)
-        self.practice.area = _LEFT, self._below, _WIDTH, 30
+        self.practice.area = _LEFT, self._below, 208, 30
+        self.opener.area = _LEFT + 214, self._below, 104, 30
 
     def handle(self, event: InputEvent) -> None:
-        if "link" in event.pressed and self.pack.files:
+        if event.raw.type == pygame.DROPFILE and not self.previews:
+            self.app.pop()
+            self.app.top.handle(event)
+        elif "link" in event.pressed and self.pack.files:
             copy_link(self.app, self.pack.files.link, title=self.pack.name)
         else:
             super().handle(event)

@@ -17,7 +17,7 @@ from ninja_game.formats.pack.pack import INDEX, Pack
 from ninja_game.levels.episodes import GAME, YOURS, Entry, EpisodeSet
 from ninja_game.levels.findings import Finding
 from ninja_game.play.app import App
-from ninja_game.play.menu_screen import ask_received, ask_text
+from ninja_game.play.menu_screen import ask_text
 from ninja_game.play.menus.pack_shelves import CELL_HEIGHT, CELL_WIDTH, Marks, PackCell, Rack, called
 from ninja_game.play.menus.packer import PackStatus, packer_of
 from ninja_game.play.thumbnails import ThumbnailScreen
@@ -63,9 +63,24 @@ class PackDesk(ThumbnailScreen):
         return self.player.folder / LEVELS
 
     @property
+    def is_received(self) -> bool:
+        """Whether the shown pack is somebody else's: it is played, not changed."""
+        return bool(self.pack and self.pack.received)
+
+    @property
     def zipped(self) -> Path | None:
-        """The zip that was just made of this pack."""
-        return self.packer.saved if self.packer.path == self.path else None
+        """The newest zip of this pack."""
+        return self._zip[0]
+
+    @property
+    def is_fresh(self) -> bool:
+        """Whether the newest zip has all that is in the pack now."""
+        return self._zip[1]
+
+    @property
+    def _zip(self) -> tuple[Path | None, bool]:
+        pack = self.pack and self.pack.pack
+        return self.packer.zip_of(pack) if pack and not self.is_received else (None, False)
 
     def read_packs(self, shown: Path | None = None, *, news: bool = False) -> None:
         """Read all packs from the disk; show this one, or the one before. ``news``: only if that has changed."""
@@ -81,17 +96,18 @@ class PackDesk(ThumbnailScreen):
     def show(self, pack: EpisodeSet | None) -> None:
         self.pack = pack = pack or next(iter(self.own_packs), None)
         self.packer.watch(self, pack and pack.path)
-        self.status.show(pack)
+        own = None if self.is_received else pack
+        self.status.show(own)
         if not self.packer.is_busy:
             self.packer.follow(next((shelf.pack for shelf in self.own_packs if shelf.path == self.packer.path), None))
         cells: list[PackCell] = []
-        if pack and pack.pack:
+        if own and pack and pack.pack:
             for episode in pack.pack.index.episodes:
                 levels = pack.episodes[episode.number].levels if episode.number in pack.episodes else ()
                 cells += [PackCell(episode, head=True), *(PackCell(episode, level) for level in levels)]
                 cells += [PackCell(episode)] * (LEVELS_PER_EPISODE - len(levels))
             cells += [PackCell(None, head=True), *[PackCell(None)] * LEVELS_PER_EPISODE]
-        entries: Sequence[Entry] = pack.singles if pack else ()
+        entries: Sequence[Entry] = own.singles if own else ()
         if self.tray_key == "yours":
             entries = self.player.catalogue.own()
         elif self.tray_key != "none":
@@ -129,20 +145,6 @@ class PackDesk(ThumbnailScreen):
         self.app.top.enter()
         return done
 
-    def change_pack(self, action: Callable[[], object], step: str) -> None:
-        """Change the shown pack; for a received one ask first whether to change a copy."""
-        if not (self.pack and self.pack.pack and self.pack.received):
-            self.run_step(action, step)
-            return
-        pack = self.pack.pack
-
-        def change_original() -> None:
-            packs.make_own(pack.files.path)
-            action()
-
-        copy = partial(self.copy_pack, pack)
-        ask_received(self.app, pack.index.title, copy, lambda: self.run_step(change_original, step))
-
     def copy_pack(self, pack: Pack) -> None:
         def copy() -> None:
             self.new_path = packs.copy_pack(pack, self.folder, f"{pack.name} copy")
@@ -166,7 +168,7 @@ class PackDesk(ThumbnailScreen):
 
     def edit_level(self, level: Entry) -> None:
         edit = partial(self.edit, level, None)
-        self.change_pack(edit, "Edit") if Path(level.named.file).parent == self.path else edit()
+        self.run_step(edit, "Edit") if Path(level.named.file).parent == self.path else edit()
 
     def ask_text_for(self, title: str, text: str, action: Callable[[str], object], needed: str = "") -> None:
         """Ask for a text, and change the pack with it. ``needed``: a notice where none is typed; then ask again."""
@@ -177,7 +179,7 @@ class PackDesk(ThumbnailScreen):
                 self.app.notify(needed)
                 self.ask_text_for(title, text, action, needed)
             else:
-                self.change_pack(lambda: action(typed), step)
+                self.run_step(lambda: action(typed), step)
 
         ask_text(self.app, title, "", text, "OK", take, 60)
 
@@ -202,7 +204,7 @@ class PackDesk(ThumbnailScreen):
     def set_aside(self, action: Callable[[], object], title: str) -> None:
         """Take levels out of their episode, and show them in their new place."""
         self.tray_key = "none"
-        self.change_pack(action, f"Take out {shown_text(title)}")
+        self.run_step(action, f"Take out {shown_text(title)}")
 
     def levels(self, rack: Widget | None = None) -> list[Entry]:
         """The visible levels, in order, of one row or of both."""
@@ -246,13 +248,12 @@ class PackDesk(ThumbnailScreen):
         moving, self.moving, self.pointer = self.moving, None, None
         levels = self.levels_with(moving.level) if moving and moving.level else []
         if levels and not (goal and goal.level in levels and len(levels) == 1):
-            change = self.run_step if goal is None and self.tray_key != "none" else self.change_pack
             copy = bool(pygame.key.get_mods() & (pygame.KMOD_CTRL | pygame.KMOD_META))
             move = partial(self._move_levels, levels, goal, after=after, copy=copy)
-            change(move, f"{'Copy' if copy else 'Move'} {called(levels)}")
+            self.run_step(move, f"{'Copy' if copy else 'Move'} {called(levels)}")
         elif moving and moving.episode and goal and goal.episode:
             numbers = moving.episode.number, goal.episode.number
-            self.change_pack(partial(self._move_episode, *numbers), f"Move episode {numbers[0] + 1}")
+            self.run_step(partial(self._move_episode, *numbers), f"Move episode {numbers[0] + 1}")
 
     def _is_after(self, index: int) -> bool:
         """Whether the mouse is over the right half of a cell: a dropped level lands behind that cell."""

@@ -15,6 +15,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.level.screen import play_level
 from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, Question, nothing
 from ninja_game.play.menus.episodes import PREVIEW, EpisodeGrid
+from ninja_game.play.menus.open_pack import open_pack
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_shelves import PackCell, called
 from ninja_game.play.panels.replays import watch_replays
@@ -32,25 +33,33 @@ def view(desk: PackDesk) -> None:
 
 
 def pack_menu(desk: PackDesk) -> None:
-    pack = desk.pack_now()
-    if not (desk.pack and pack):
-        return
-    key, name = desk.pack.key, desk.pack.name
+    if pack := desk.pack_now():
+        desk.app.push(Menu(desk.app, pack.name, [*pack_rows(desk, pack), CANCEL]))
+
+
+def pack_rows(desk: PackDesk, pack: Pack) -> list[MenuRow]:
+    """What can be done with the shown pack; who received it does not change it."""
+    key, name = (desk.pack.key, desk.pack.name) if desk.pack else ("", "")
     empty = not pack.episodes
     busy = desk.packer.is_busy and desk.packer.path == desk.path
     deleting = "It is being made ready" if busy else "It goes to the folder deleted, and Undo brings it back"
     without = "No episode has levels" if empty else ""
     play = None if empty else lambda: desk.app.push(EpisodeGrid(desk.app, key))
-    rows: list[MenuRow] = [("Play it", play, without)]
-    if not desk.pack.received:
-        rows.append(("Show it as received", None if empty else lambda: view(desk), without or PREVIEW))
-    rows += [
+    own: list[MenuRow] = [
+        ("Show it as received", None if empty else lambda: view(desk), without or PREVIEW),
         ("Name, author, version...", lambda: pack_form(desk, pack), ""),
         ("Copy of the pack", lambda: desk.copy_pack(pack), ""),
-        ("Delete the pack...", None if busy else lambda: _delete(desk, pack, name), deleting),
-        CANCEL,
     ]
-    desk.app.push(Menu(desk.app, pack.name, rows))
+    update = partial(open_pack, desk.app, f"Update {shown_text(pack.name)}")
+    received: list[MenuRow] = [
+        ("Update it...", update, "From the zip or link of a newer version"),
+        ("Copy it, to change that", lambda: desk.copy_pack(pack), "What was received stays as it is"),
+    ]
+    return [
+        ("Play it", play, without),
+        *(received if desk.pack and desk.pack.received else own),
+        ("Delete the pack...", None if busy else lambda: _delete(desk, pack, name), deleting),
+    ]
 
 
 def pack_form(
@@ -59,7 +68,7 @@ def pack_form(
     """Ask for the texts of the index, from field number ``first`` on, with ``version`` proposed; then call ``then``."""
     index, path = pack.index, pack.files.path
     keys = ("name", "author", "version", "comment")
-    author = index.author if index.is_signed or (desk.pack and desk.pack.received) else desk.player.settings.name
+    author = index.author if index.is_signed else desk.player.settings.name
     signed = replace(index, author=author, version=version or index.version)
     fields = [(key.capitalize(), getattr(signed, key), 200) for key in keys]
 
@@ -71,7 +80,7 @@ def pack_form(
             packs.describe(path, values)
             then()
 
-        desk.change_pack(change, "About the pack")
+        desk.run_step(change, "About the pack")
 
     form = FormPanel(desk.app, "What players see", fields, yes, describe)
     desk.app.push(form)
@@ -118,7 +127,7 @@ def level_menu(desk: PackDesk, cell: PackCell) -> None:
             )
     rows.append(("Move...", lambda: desk.start_moving(cell), ""))
     if all(Path(level.named.file).parent == desk.path for level in levels):
-        rows.append(("Copy", lambda: desk.change_pack(copy, f"Copy {title}"), "Another level like it"))
+        rows.append(("Copy", lambda: desk.run_step(copy, f"Copy {title}"), "Another level like it"))
     if removal := removal_of(desk, cell):
         rows.append(("Take out", removal, "Into no episode") if episode else ("Delete", removal, "Undo brings it back"))
     desk.app.push(Menu(desk.app, title, [*rows, CANCEL]))
@@ -139,7 +148,7 @@ def removal_of(desk: PackDesk, cell: PackCell) -> Callable[[], object] | None:
             packs.transfer(level.named, desk.player.folder / DELETED, keep=False)
         desk.app.notify(f"{title}: in the folder {DELETED} now; Ctrl+Z brings back")
 
-    return lambda: (desk.run_step if desk.tray_key == "yours" else desk.change_pack)(delete, f"Delete {title}")
+    return lambda: desk.run_step(delete, f"Delete {title}")
 
 
 def ask_for_new_level(desk: PackDesk, number: int) -> None:
@@ -167,7 +176,7 @@ def episode_menu(desk: PackDesk, episode: EpisodeIndex) -> None:
         levels = [cell.level for cell in desk.shelves.cells if cell.level and cell.episode is episode]
         levels.sort(key=lambda level: (level.pars and level.pars.difficulty) or inf)
         names = [Path(level.named.file).name for level in levels]
-        desk.change_pack(partial(packs.place, path, names, number), f"Sort {title}")
+        desk.run_step(partial(packs.place, path, names, number), f"Sort {title}")
 
     def name_column(name: str) -> None:
         packs.describe(path, {"columns": [*columns[:column], name, *columns[column + 1 :]]})

@@ -12,20 +12,17 @@ from ninja_game.editor.ready_pack import ReadyPack, missing_run
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import counted, shown_text
 from ninja_game.files.user_folder import short_path
-from ninja_game.formats.links import link_kind
 from ninja_game.formats.pack.index import NEVER_ACCEPTED
 from ninja_game.formats.pack.pack import INDEX, PARS, Pack
-from ninja_game.levels.episodes import EpisodeSet
 from ninja_game.levels.findings import PackFinding
-from ninja_game.play.clipboard import copy_link, pasted_text
-from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow, nothing
+from ninja_game.play.clipboard import copy_link
+from ninja_game.play.menu_screen import CANCEL, FormPanel, Menu, MenuRow
 from ninja_game.play.menus.episodes import PREVIEW
-from ninja_game.play.menus.pack_card import PackCard
+from ninja_game.play.menus.open_pack import paste_link
 from ninja_game.play.menus.pack_desk import PackDesk
 from ninja_game.play.menus.pack_menus import pack_form, pack_menu, view
 from ninja_game.play.menus.packer import NOT_CERTIFIED, NOT_FOUND
 from ninja_game.play.menus.problems import Problem, ProblemsScreen
-from ninja_game.play.panels.files import FilesScreen
 from ninja_game.runs.packs import level_file_of
 
 _STOPS = "It can be stopped at any time: what was found is kept."
@@ -48,7 +45,7 @@ def problems(desk: PackDesk) -> list[Problem] | None:
     if not (verdict or to_do):
         return rows
     text = ". ".join(filter(None, (verdict, to_do)))
-    if desk.zipped and desk.packer.is_fresh and not to_do:
+    if desk.zipped and desk.is_fresh and not to_do:
         hint = f"Or send the zip: {short_path(desk.zipped)}"
         last = Problem(text, hint, partial(copy_the_link, desk), step="Copy the link")
     else:
@@ -67,11 +64,11 @@ def _problem(desk: PackDesk, pack: Pack, finding: PackFinding) -> Problem:
     if code == "no-author":
         go = partial(pack_form, desk, pack, 1)
     elif entry:
-        go = partial(desk.change_pack, partial(desk.edit, entry, finding.odd), "Edit")
+        go = partial(desk.run_step, partial(desk.edit, entry, finding.odd), "Edit")
     if finding.reason:
         take_back = partial(packs.take_back, desk.path, file, code)
         text = f"{text}. Accepted: {finding.reason}"
-        return Problem(text, "", go, lambda: desk.change_pack(take_back, "Take it back"), accepted=True)
+        return Problem(text, "", go, lambda: desk.run_step(take_back, "Take it back"), accepted=True)
 
     def accept(why: str) -> None:
         packs.accept(desk.path, file, code, why)
@@ -106,8 +103,11 @@ def copy_the_link(desk: PackDesk) -> None:
     if not (desk.pack and pack):
         return
     copy = partial(copy_link, desk.app, pack.files.link, title=desk.pack.name)
-    levels = [] if desk.pack.received else desk.pack.levels
-    without = [level for level in levels if desk.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
+    without = [
+        level
+        for level in desk.pack.levels
+        if not desk.pack.received and desk.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)
+    ]
     rows: list[MenuRow] = [
         ("Make ready first", partial(prepare_shown, desk), "Certifies them, and gives the link"),
         ("Copy all the same", copy, "Whoever gets it is not told whether they can be passed"),
@@ -130,7 +130,7 @@ def prepare_shown(desk: PackDesk) -> None:
     version = desk.packer.next_version(pack)
     follows = bool(index.version) and version != index.version
     is_described = bool(index.comment) or PARS in pack.files.names
-    if desk.pack.received or (index.is_signed and not follows and is_described):
+    if index.is_signed and not follows and is_described:
         start()
         return
     first = 3
@@ -155,44 +155,13 @@ def ask_for_new_pack(desk: PackDesk) -> None:
 
 def paste(desk: PackDesk) -> None:
     """Take in the pack whose link is in the clipboard."""
-
-    def read() -> Pack:
-        text = pasted_text()
-        if link_kind(text) != "pack":
-            raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
-        return Pack(Path(f"#{text.partition('#')[2]}"))
-
-    install_received(desk, read)
+    paste_link(desk.app, partial(install_received, desk))
 
 
-class ZipsScreen(FilesScreen):
-    """Chooses the zip of a pack; it starts in the folder of downloads."""
-
-    foot = "Enter opens a folder, or receives the pack of a zip; Esc goes back"
-    suffixes = (".zip",)
-
-    def __init__(self, desk: PackDesk) -> None:
-        home, loaded = Path.home(), Path.home() / "Downloads"
-        super().__init__(desk.app, loaded if loaded.is_dir() else home)
-        self._desk = desk
-
-    def look(self) -> None:
-        """The newest zip is chosen at first."""
-        super().look()
-        zips = [path for path in self.paths if path.is_file()]
-        with self.app.noting():
-            if zips and not self.list.index:
-                self.list.select(self.paths.index(max(zips, key=lambda path: path.stat().st_mtime)))
-
-    def open_file(self, path: Path) -> None:
-        self.app.pop()
-        install_received(self._desk, lambda: Pack(path))
-
-
-def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
+def install_received(desk: PackDesk, path: Path) -> None:
     """Install a received pack among the player's, instead of an older version if the player agrees."""
     try:
-        pack = read()
+        pack = Pack(path)
     except (NinjaGameError, OSError) as error:
         desk.app.notify(reason(error))
         return
@@ -204,10 +173,8 @@ def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
             news = news or f"kept among your packs, in {short_path(desk.new_path)}"
             desk.app.notify(f"{shown_text(pack.name)}: {news}")
 
-        done = desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
+        desk.run_step(copy, f"Update {pack.name}" if over else "Paste link")
         desk.focus_on(desk.play_button)
-        if desk.pack and done:
-            show_card(desk, desk.pack)
 
     name, author = shown_text(pack.name), pack.index.author
     older = [own.pack for own in desk.own_packs if own.pack and own.received and own.pack.name == pack.name]
@@ -226,16 +193,6 @@ def install_received(desk: PackDesk, read: Callable[[], Pack]) -> None:
         desk.app.push(Menu(desk.app, f"You have {name} {over.index.version or 'in another version'}", rows))
     else:
         receive()
-
-
-def show_card(desk: PackDesk, pack: EpisodeSet) -> None:
-    """Show the card of a received pack; from there makers get to the desk."""
-    rows: list[MenuRow] = [
-        ("Play", partial(view, desk) if pack.episodes else None, "" if pack.episodes else "No episode has levels"),
-        ("Edit a copy", lambda: desk.copy_pack(pack.pack) if pack.pack else None, "What was received stays as it is"),
-        ("Not now", nothing, "It is among your packs"),
-    ]
-    desk.app.push(PackCard(desk.app, pack, rows))
 
 
 def ask_about(desk: PackDesk, ready: ReadyPack) -> None:

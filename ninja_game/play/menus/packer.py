@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,7 +14,7 @@ from ninja_game.editor.pack_steps import Steps
 from ninja_game.editor.ready_pack import MADE_READY, Obstacles, ReadyPack, prepare_pack, problems_of_pack
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import counted, file_stem, shown_text
-from ninja_game.files.user_folder import EXPORTS, short_path
+from ninja_game.files.user_folder import EXPORTS
 from ninja_game.formats.pack.pack import Pack, certificate_name
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.episodes import Entry, EpisodeSet
@@ -37,7 +37,6 @@ class Packer(Aside):
     def __init__(self, app: App) -> None:
         self.app = app
         self.path = Path()  #: the pack that is or was made ready
-        self.saved: Path | None = None  #: the zip that was written of it
         self._seconds = SECONDS
         self._known: dict[Path, set[tuple[str, str]]] = {}  #: accepted problems (file, code), by pack
         self._asks_first = True  #: whether problems are asked about before the work
@@ -48,8 +47,7 @@ class Packer(Aside):
         self.text = ""  #: progress, or result
         self._result_text = ""
         self.share: float | None = None  #: finished share of the present step; None: unknown
-        self._zipped = b""
-        self._compared: Pack | None = None  #: the pack that was last compared with the zip
+        self._zips: dict[Path, tuple[Pack, Path | None, bool]] = {}  #: answers of ``zip_of``, by pack
         self._open_problems: ReadyPack | None = None  #: ready but for problems, about which the desk asks
         self._step: tuple[str, float | None, float] = "", None, 0.0  #: text, share and start, s
         self.job: NewestJob[Path, ReadyPack] = NewestJob(self._make_ready)
@@ -63,10 +61,25 @@ class Packer(Aside):
         """The desk shows this pack from now on."""
         self._watching = desk, shown
 
-    @property
-    def is_fresh(self) -> bool:
-        """Whether the zip has all that is in the pack now."""
-        return self.saved is not None and self.text == self._result_text
+    def zip_of(self, pack: Pack) -> tuple[Path | None, bool]:
+        """The newest zip of a pack among the exports, and whether it has all that is in the pack now."""
+        known, path, is_fresh = self._zips.get(pack.files.path, (None, None, False))
+        if known is not pack:
+            zipped = next(self._zips_of(pack), None)
+            path = zipped.files.path if zipped else None
+            is_fresh = zipped is not None and packs.same_pack(zipped, pack, whole=True)
+            self._zips[pack.files.path] = pack, path, is_fresh
+        return path, is_fresh
+
+    def _zips_of(self, pack: Pack) -> Iterator[Pack]:
+        """The zips of a pack, the newest first; what cannot be read is none."""
+        with suppress(OSError):
+            paths = (self.app.player.folder / EXPORTS).glob(f"{file_stem(pack.name, 'replay')}*.zip")
+            for path in sorted(paths, key=lambda path: path.stat().st_mtime_ns, reverse=True):
+                with suppress(NinjaGameError, OSError):
+                    zipped = Pack(path)
+                    if zipped.files.folder == pack.files.folder:
+                        yield zipped
 
     def start(self, path: Path, *, seconds: float = SECONDS, known: Sequence[PackFinding] | None = None) -> None:
         """Make a pack ready. ``known``: problems with which the player goes on, and is not asked about again.
@@ -77,7 +90,7 @@ class Packer(Aside):
         self.path = path
         self.is_busy, self._stopped = True, False
         self._know(known or ())
-        self.saved = self._open_problems = None
+        self._open_problems = None
         self._seconds = seconds
         self._say("Beginning", 0.0)
         self.job.ask(path)
@@ -152,8 +165,8 @@ class Packer(Aside):
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         title = f"{name} {ready.pack.index.version}".strip()
         over = self._earlier(title, ready.pack)
-        self.saved = app.write_export(title, ".zip", ready.zipped, first=1, over=over)
-        self._zipped, self._compared = ready.zipped, None
+        app.write_export(title, ".zip", ready.zipped, first=1, over=over)
+        self._zips.clear()
         notices = [app.notice]
         if ready.link and waited_for:
             copy_link(app, lambda: ready.link, title=name)
@@ -177,17 +190,14 @@ class Packer(Aside):
         return str(int(version) + 1) if zipped and not packs.same_pack(Pack(zipped), pack) else version or "1"
 
     def follow(self, pack: Pack | None) -> None:
-        """Update the text about the zip. ``pack``: with its present files, None if it is gone."""
-        if pack is None:
-            self.text, self.saved = "", None
-        elif self.saved and pack is not self._compared:
-            self._compared = pack
-            self.text = self._result_text if pack.files.zipped() == self._zipped else f"Changed since {self.saved.name}"
+        """Drop the result of the work once the pack has changed since, or (None) is gone."""
+        if pack is None or (self.text == self._result_text and not self.zip_of(pack)[1]):
+            self.text = ""
 
     def drop_notices(self) -> None:
         """Drop texts that hold only while the desk is open, such as that the link was copied."""
-        self._result_text = f"Saved: {short_path(self.saved)}" if self.saved else ""
-        self.text, self._compared = self._result_text, None
+        self.text = "" if self.text == self._result_text else self.text
+        self._zips.clear()
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,15 @@ import pygame
 
 from ninja_game.editor import packs
 from ninja_game.files.shown_text import counted, shown_text
+from ninja_game.files.user_folder import short_path
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.menus import pack_menus, pack_sharing
 from ninja_game.play.menus.episodes import PREVIEW
+from ninja_game.play.menus.open_pack import ZipsScreen, open_pack
 from ninja_game.play.menus.pack_desk import PackDesk
-from ninja_game.play.menus.pack_list import PackList
+from ninja_game.play.menus.pack_list import PackList, pack_size
 from ninja_game.play.menus.pack_shelves import CELL_HEIGHT, PackCell, Rack
+from ninja_game.ui.canvas import WIDTH
 from ninja_game.ui.input.bindings import InputEvent
 from ninja_game.ui.input.keys import chord
 from ninja_game.ui.widgets import Button, Choice, Widget
@@ -34,6 +37,8 @@ _NO_LEVELS = (
 _DRAG = "Drag a level or an episode; a second click edits. Enter, or the right button: more. Ctrl or Shift: several"
 
 _MOVES = "Let go to move it there; with Ctrl it is copied. The colours of a level go by its place in the pack"
+
+_CARD = 106  # the upper edge of the card of a received pack, px
 
 
 class _ShownState(NamedTuple):
@@ -54,47 +59,47 @@ class PackScreen(PackDesk):
 
     def build(self) -> Sequence[Widget]:
         app = self.app
-        names = [
-            (pack.pack.index.title if pack.pack and pack.received else pack.name, pack.key) for pack in self.own_packs
-        ]
+        names = [(pack.name, pack.key) for pack in self.own_packs]
         pack = self.pack and self.pack.pack
         key = self.pack.key if self.pack else ""
         choice = self.pack_choice = Choice((36, 60, 140, 28), "", names, lambda: key, self._choose_pack)
         choice.more = lambda: app.push(PackList(app, self.own_packs, lambda pack: self._choose_pack(pack.key)))
-        received = bool(self.pack and self.pack.received)
-        mark = ", received" if received else ""
+        mark = ", received" if self.is_received else ""
         place = f"{pack.index.title}{mark}, in the folder {self.path.name}" if pack else ""
         choice.hint = f"{place}. Enter, or a click on the name: all your packs"
+        undo = Button((180, 60, 42, 28), "Undo", self.undo, size=10)
+        undo.enabled = bool(steps := self.packer.steps)
+        undo.hint = f"Ctrl+Z: {steps[-1].name}" if steps else ""
+        new = Button((226, 60, 70, 28), "New pack...", partial(pack_sharing.ask_for_new_pack, self), size=10)
+        link = Button((662, 525, 94, 24), "Copy the link", partial(pack_sharing.copy_the_link, self), size=10)
+        link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
+        if pack and self.is_received:
+            return self._player_widgets(pack, [choice, undo, new, link])
         tray = [("In no episode", "none"), ("Your folder", "yours")]
         tray += [(pack.name if pack.key else "The game's own", pack.key) for pack in self.sets if pack is not self.pack]
         tray_choice = Choice((622, 96, 134, 26), "", tray, lambda: self.tray_key, self.choose_tray)
-        steps, busy = self.packer.steps, self.packer.is_busy
+        busy = self.packer.is_busy
 
         def button(x: float, width: float, text: str, act: Callable[[PackDesk], object], hint: str = "") -> Button:
             return Button((x, 60, width, 28), text, partial(act, self), hint=hint, size=10)
 
-        undo = button(180, 42, "Undo", PackDesk.undo, f"Ctrl+Z: {steps[-1].name}" if steps else "")
-        undo.enabled = bool(steps)
-        new = button(226, 70, "New pack...", pack_sharing.ask_for_new_pack)
         hint = "Ctrl+V: the pack whose link is in the clipboard becomes one of yours"
         paste = button(300, 64, "Paste link", pack_sharing.paste, hint)
         hint = "A zip that somebody sent you; it can be dropped here too"
-        unzip = button(368, 74, "Open a zip...", lambda desk: desk.app.push(pack_sharing.ZipsScreen(desk)), hint)
+        zips = partial(ZipsScreen, app, partial(pack_sharing.install_received, self))
+        unzip = button(368, 74, "Open a zip...", lambda desk: desk.app.push(zips()), hint)
         if not pack:
             for row, large in enumerate((new, paste, unzip)):
                 large.area, large.size = (276, 220 + 56 * row, 240, 44), 14
             return [new, paste, unzip, undo] if steps else [new, paste, unzip]
         more = button(446, 48, "More...", pack_menus.pack_menu, "Preview, name, copy or delete the pack")
         hint = f"{PREVIEW}: what whoever pastes the link sees; nothing is kept"
-        hint = shown_text(pack.index.summary, 200) if received else hint
-        opener = self.play_button = button(498, 54, "Play" if received else "Preview", pack_menus.view, hint)
+        opener = self.play_button = button(498, 54, "Preview", pack_menus.view, hint)
         opener.enabled = bool(self.pack and self.pack.episodes)
         problems = button(556, 62, "Problems", pack_sharing.show_problems)
         action = ("Stop", self.packer.end) if busy else ("Make ready", partial(pack_sharing.prepare_shown, self))
         hint = "Certify all, measure par times, look for problems; zip and link. Only what changed is done again"
         ready = Button((632, 60, 124, 28), *action, hint=hint)
-        link = Button((662, 525, 94, 24), "Copy the link", partial(pack_sharing.copy_the_link, self), size=10)
-        link.hint = "Whoever opens it, or pastes it in Levels > Packs, gets the pack"
         folder = Button((562, 525, 94, 24), "Open the folder", partial(pack_sharing.open_folder, self), size=10)
         folder.hint = "Where the zip is"
         share = [] if busy else [folder, link] if self.zipped else [link]
@@ -106,10 +111,20 @@ class PackScreen(PackDesk):
             first.append(Button((196, self._top, 240, 44), "New level...", make_one, hint=pack_menus.MADE, size=14))
         return first
 
+    def _player_widgets(self, pack: Pack, others: Sequence[Widget]) -> Sequence[Widget]:
+        """What a player does with a received pack, below its card."""
+        rows = [
+            Button((276, _CARD + 250 + 42 * k, 240, 34), *row[:2], hint=row[2])
+            for k, row in enumerate(pack_menus.pack_rows(self, pack))
+        ]
+        self.play_button = rows[0]
+        opener = Button((632, 60, 124, 28), "Open a pack...", partial(open_pack, self.app, "Open a pack"))
+        return [*rows, *others, opener]
+
     @property
     def _is_new(self) -> bool:
         """Whether the pack has no level, and room for a large button."""
-        return self.shelves.lines < 3 and self.pack is not None and not self.pack.levels
+        return self.shelves.lines < 3 and self.pack is not None and not (self.pack.levels or self.is_received)
 
     @property
     def _top(self) -> float:
@@ -129,7 +144,7 @@ class PackScreen(PackDesk):
         if event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+v":
             pack_sharing.paste(self)
         elif event.raw.type == pygame.DROPFILE:
-            pack_sharing.install_received(self, lambda: Pack(Path(event.raw.file)))
+            pack_sharing.install_received(self, Path(event.raw.file))
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+z":
             self.undo()
         elif event.raw.type == pygame.KEYDOWN and chord(event.raw) == "ctrl+a":
@@ -178,21 +193,38 @@ class PackScreen(PackDesk):
         super().draw_frame(surface)
         theme, faint = self.theme, self.theme.palette.faint
         packer, step = self.packer, self._next_step()
-        texts = [packer.text or self.status.counts()]
+        saved = f"Saved: {short_path(self.zipped)}" if self.zipped else ""
+        texts = [packer.text or (saved if self.is_fresh else self._change)]
         if packer.text and packer.path != self.path:
             texts = [f"{shown_text(packer.path.name)}: {packer.text}"]
-        elif packer.text and not packer.is_busy:
+        elif not packer.is_busy:
             texts.append(self.status.counts())
-        if self.shelves.lines < 4:
+        texts = [*filter(None, texts)]
+        if self.is_received:
+            self._draw_card(surface)
+        elif self.shelves.lines < 4:
             place = (36, self._top + 60 * self._is_new, 560 if self.pack else 720, 90)
             theme.paragraph(surface, step, place, 13, 20, align="centre")
         elif not packer.is_busy:
             texts += step[:1]
-        area = (36, 524, 720 if packer.is_busy else 516, 41)
-        theme.paragraph(surface, texts, area, 10, 13.5, colour=faint)
+        foot = (36, 524, 720 if packer.is_busy else 516, 41)
+        theme.paragraph(surface, texts, foot, 10, 13.5, colour=faint)
         if packer.is_busy and packer.share is not None:
             theme.panel(surface, 36, 546, 720, 7)
             theme.canvas.fill_rect(surface, theme.palette.accent, 36, 546, max(1.0, 720 * packer.share), 7, 3)
+
+    def _draw_card(self, surface: pygame.Surface) -> None:
+        """Name, author, version, picture, size and comment of a received pack."""
+        theme, middle, pack = self.theme, WIDTH / 2, self.pack
+        if not (pack and pack.pack):
+            return
+        index, faint = pack.pack.index, theme.palette.faint
+        theme.text(surface, shown_text(index.name), middle, _CARD, size=17, bold=True, align="centre", width=600)
+        theme.text(surface, shown_text(index.byline), middle, _CARD + 24, size=11, align="centre", width=600)
+        self.thumbnails.draw_pack(surface, pack.levels, middle - 110, _CARD + 44, 220)
+        theme.text(surface, pack_size(pack), middle, _CARD + 216, size=10, align="centre", colour=faint)
+        comment = (middle - 300, _CARD + 232, 600, 14)
+        theme.paragraph(surface, [shown_text(index.comment, 200)], comment, 10, 13, align="centre")
 
     def _next_step(self) -> Sequence[str]:
         """The next step for the shown pack, in words."""
@@ -201,12 +233,17 @@ class PackScreen(PackDesk):
             return _NO_LEVELS if pack else _NO_PACK
         if packer.is_busy and packer.path == self.path:
             return ["It goes on when you leave this screen.", "Stop keeps what was found."]
-        if packer.is_fresh and self.zipped:
-            return ["Send the zip or the link: a link is pasted, a zip opened, in Levels > Packs."]
-        if pack.received or not status.present:
+        if self.is_fresh:
+            return ["Send the zip or the link: Open a pack, in Episodes, takes both."]
+        if not status.present:
             return []
         if status.present.problems:
             return [f"{counted(len(status.present.problems), 'problem')} to mend: Problems, above, shows the place."]
         if status.to_do():
             return ["Next: Make ready, at the top right."]
-        return ["Nothing is wrong: Make ready writes the zip and the link."]
+        return [f"{self._change or 'Nothing is wrong'}: Make ready writes the zip and the link."]
+
+    @property
+    def _change(self) -> str:
+        """That the pack has changed since its newest zip, in words; "" without a zip, or a change."""
+        return f"Changed since {self.zipped.name}" if self.zipped and not self.is_fresh else ""

@@ -5,15 +5,16 @@ from itertools import combinations
 import pytest
 
 from ninja_game.play.main_menu import PANEL, MainMenu
-from ninja_game.play.menu_screen import MenuScreen
+from ninja_game.play.menu_screen import FormPanel, MenuScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import Cells, EpisodeGrid
 from ninja_game.play.panels.replays import RecordsScreen, ReplaysScreen
 from ninja_game.simulation import Simulation
 from ninja_game.ui.canvas import HEIGHT, WIDTH
 from ninja_game.ui.list_view import ListView
-from ninja_game.ui.theme import Area
+from ninja_game.ui.theme import TEXT_SIZES, Area
 from ninja_game.ui.widgets import Slider, Widget
+from tests.support.layout import Layout, noted
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 
@@ -187,3 +188,23 @@ def test_a_second_click_counts_while_more_rows_come_and_not_where_another_row_is
     shown.fill([other])
     shown.click(10, 10)
     assert chosen == [0], "only selected"
+
+
+@pytest.mark.parametrize("percent", TEXT_SIZES.values())
+def test_a_filled_field_of_a_form_still_says_what_it_is(driver: MenuDriver, percent: int) -> None:
+    driver.app.change_settings(text_size=percent)
+    fields = [("Name", "Laundry", 40), ("What it teaches", "To fold", 40), ("Version", "1", 40)]
+    driver.app.push(FormPanel(driver.app, "What players see", fields, "OK", print))
+    driver.frames(2)
+    with noted() as layouts:
+        layouts.append(Layout())
+        driver.app.lay_out()
+        driver.app.draw()
+        layout = layouts.pop()
+    assert not list(layout.problems(driver.app))
+    assert {prompt for prompt, _, _ in fields} <= {each.text for each in layout.texts}
+    form = driver.shown(FormPanel)
+    driver.mouse(*form.widgets[-1].centre)
+    assert form.focus is form.widgets[0], "a label is nothing to choose"
+    assert not any(overlap(a, b) for a, b in combinations(form.widgets, 2))
+    driver.fill("Dry", "OK")

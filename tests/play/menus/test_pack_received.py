@@ -17,12 +17,12 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menu_screen import MenuScreen
-from ninja_game.play.menus import pack_sharing
 from ninja_game.play.menus.episodes import EpisodeGrid
-from ninja_game.play.menus.pack_card import PackCard
+from ninja_game.play.menus.open_pack import ZipsScreen
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.player.player_data import save_work
 from tests.support.draw_log import drawn, notice_box
+from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
 from tests.support.pack_desk import Desk, rewrite, texts_of
 
@@ -40,12 +40,6 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(desk: Desk, screen: PackScreen) 
         assert not screen.own_packs
         desk.choose("Paste link")
         assert "Laundry: kept among your packs, in " in desk.app.notice
-        desk.choose("Not now")
-        desk.wait_for_check()
-        work = "Make ready will look for all gold in 8 levels"
-        assert screen.status.counts() == f"8 levels in 2 episodes. {work}. 0 problems"
-        assert screen.status.checked
-        assert {finding.code for finding in screen.status.checked.to_do} == {"no-gold-run"}
         assert [pack.name for pack in screen.own_packs] == ["Laundry"]
         first = desk.layout(screen.path)
         desk.chord("v", pygame.KMOD_LCTRL)
@@ -58,7 +52,6 @@ def test_a_pack_comes_by_its_link_and_by_ctrl_v(desk: Desk, screen: PackScreen) 
         first = desk.layout(screen.path)
         desk.chord("v", pygame.KMOD_LCTRL)
         desk.choose("Keep both")
-        desk.choose("Not now")
         assert len(screen.own_packs) == 2, "it never goes over what is there unasked"
     assert desk.layout(screen.path) == first
 
@@ -75,7 +68,6 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
 
     drop()
     assert desk.app.notice.startswith("Laundry: kept among your packs, in ")
-    desk.choose("Not now")
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     before = {file: file.read_bytes() for file in desk.path.rglob("*") if file.is_file()}
     (made / "00-0-run-and-hop.txt").unlink()
@@ -90,7 +82,6 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
     news = "1 level new: Fresh; 4 levels changed; 1 level gone: Run and Hop"
     assert news in drawn(desk.app), "the texts of a level count too"
     desk.choose("Update it")
-    desk.choose("Not now")
     assert desk.app.notice == f"Laundry: {news}"
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
     assert Pack(desk.path).index.version == "1.1"
@@ -135,21 +126,21 @@ def test_what_is_received_is_shown_on_a_card_before_the_desk(desk: Desk, tmp_pat
     zipped.write_bytes(Pack(desk.path).files.zipped())
     shutil.rmtree(desk.path)
     desk.drop_file(zipped)
-    card = desk.shown(PackCard)
-    assert card.focus is desk.button("Play")
+    screen = desk.shown(PackScreen)
+    assert screen.focus is desk.button("Play it")
     text = drawn(desk.app)
     for wanted_text in ("Laundry", "by the ninja-game developers, 1.2", "8 levels in 2 episodes", "Dry by noon"):
         assert f"text '{wanted_text}' at" in text
-    with patch.object(card._thumbnails, "draw") as draw:
+    with patch.object(screen.thumbnails, "draw") as draw:
         drawn(desk.app)
     assert draw.call_count == 4, "its picture"
     desk.press("return")
     assert desk.shown(EpisodeGrid).pack.name == "Laundry"
     desk.press("escape")
-    screen = desk.shown(PackScreen)
+    assert desk.top() is screen
     desk.choose("Undo")
     desk.drop_file(zipped)
-    desk.choose("Edit a copy")
+    desk.choose("Copy it, to change that")
     assert [(pack.name, pack.received) for pack in screen.own_packs] == [("Laundry", True), ("Laundry copy", False)]
     assert (screen.pack and screen.pack.name) == "Laundry copy"
 
@@ -162,7 +153,6 @@ def test_the_link_of_ones_own_pack_can_be_received(desk: Desk, screen: PackScree
         desk.press("escape")
         desk.choose("Paste link")
         desk.choose("Receive it once more")
-        desk.choose("Not now")
     assert [bool(pack.received) for pack in screen.own_packs] == [False, True]
     assert (screen.pack and screen.pack.received, screen.focus) == (True, screen.play_button)
 
@@ -237,42 +227,68 @@ def test_a_pack_is_previewed_as_somebody_who_has_played_nothing(desk: Desk) -> N
     assert desk.top() is screen
 
 
-def test_a_pack_that_was_received_is_changed_only_if_that_is_meant(desk: Desk) -> None:
+def test_who_received_a_pack_sees_how_to_play_it_and_none_of_the_makers_tools(desk: Desk) -> None:
     link = Pack(desk.path).files.link()
     shutil.rmtree(desk.path)
     screen = desk.open_packs()
     desk.paste(link)
     text = drawn(desk.app)
-    assert "Laundry by the ninja-game developers" in text
+    for wanted_text in ("Laundry", "by the ninja-game developers", "Play it", "Update it...", "Open a pack..."):
+        assert f"text '{wanted_text}' at" in text
+    tools = "Make ready", "Problems", "Preview", "More...", "In no episode", "New episode", "New level", "Drag a level"
+    assert not [tool for tool in tools if tool in text]
     received = screen.path
     before = texts_of(received)
-
-    def drag() -> None:
-        desk.carry(desk.place(2), desk.half(8))
-
     desk.press("return")
     assert desk.shown(EpisodeGrid).player is desk.player
     desk.press("escape")
-    drag()
-    assert desk.shown(MenuScreen).title == "Received: Laundry by the ninja-game developers"
+    desk.chord("a", pygame.KMOD_CTRL)
+    desk.press("delete")
+    assert screen.pack_choice
+    place = screen.theme.canvas.point(*screen.pack_choice.centre)
+    pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=place, button=pygame.BUTTON_RIGHT, touch=False))
+    desk.frames(2)
+    assert "Name, author, version" not in drawn(desk.app)
     desk.choose("Cancel")
+    desk.carry(desk.place(2), desk.half(8))
     assert texts_of(received) == before
-    screen.choose_tray("yours")
-    desk.carry(desk.place(1), screen.tray.area)
-    assert texts_of(received) == before, "taken from it, a level is copied"
-    assert (screen.folder / "00-0-run-and-hop.txt").is_file()
-    drag()
+    assert not list((desk.player.folder / "exports").iterdir()), "no zip of somebody else's work"
     desk.choose("Copy it, to change that")
     assert (screen.pack and screen.pack.name, texts_of(received)) == ("Laundry copy", before)
-    drag()
-    assert desk.layout(screen.path)[1] == ["01-0", "00-1", "01-1", "01-2"], "the copy asks nothing"
-    screen.read_packs(received)
-    drag()
-    desk.choose("Change it all the same")
-    assert desk.layout(received)[1] == ["01-0", "00-1", "01-1", "01-2"]
-    assert not (received / "received").exists()
-    desk.choose("Undo")
-    assert texts_of(received) == before
+    assert desk.button("Make ready")
+    desk.carry(desk.place(2), desk.half(8))
+    assert desk.layout(screen.path)[1] == ["01-0", "00-1", "01-1", "01-2"]
+
+
+def test_a_player_opens_a_pack_where_episodes_are_chosen_and_updates_it(
+    driver: MenuDriver, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, home = tmp_path / "made", tmp_path / "home"
+    (loaded := home / "Downloads").mkdir(parents=True)
+    shutil.copytree(PACK, made)
+    (loaded / "test.zip").write_bytes(Pack(made).files.zipped())
+    monkeypatch.setattr(Path, "home", lambda: home)
+    driver.opened("Episodes", EpisodeGrid)
+    driver.choose("Open a pack...")
+    driver.choose("From a zip...")
+    driver.press("return")
+    driver.frames(2)
+    screen = driver.shown(PackScreen)
+    assert [(pack.name, pack.received) for pack in screen.own_packs] == [("test pack", True)]
+    packs.describe(made, {"version": "2"})
+    driver.choose("Update it...")
+    with patch("pygame.scrap.get_text", Pack(made).files.link):
+        driver.choose("From a link")
+    driver.frames(2)
+    driver.choose("Update it")
+    assert [pack.pack and pack.pack.index.version for pack in screen.own_packs] == ["2"]
+    driver.press("escape", "escape")
+    driver.opened("Episodes", EpisodeGrid)
+    with patch("pygame.scrap.get_text", lambda: "a poem"):
+        driver.choose("Open a pack...")
+        driver.choose("From a link")
+    assert "no link of a pack" in driver.app.notice
+    driver.shown(EpisodeGrid)
 
 
 def test_a_zip_is_chosen_from_the_folder_of_downloads_and_kept(
@@ -286,12 +302,12 @@ def test_a_zip_is_chosen_from_the_folder_of_downloads_and_kept(
     (loaded / "notes.txt").write_text("no pack", "utf-8")
     monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
     empty_desk.choose("Open a zip...")
-    files = empty_desk.shown(pack_sharing.ZipsScreen)
+    files = empty_desk.shown(ZipsScreen)
     assert files.paths == [tmp_path / "home", loaded], "it begins where browsers put what they load"
     empty_desk.press("down", "return")
     assert [path.name for path in files.paths[1:]] == ["zz.zip", "old.zip", "test.zip"]
     empty_desk.press("return")
-    assert empty_desk.shown(PackCard), "the newest zip was chosen already"
+    assert screen.is_received, "the newest zip was chosen already"
     assert [pack.name for pack in screen.own_packs] == ["test pack"]
     assert empty_desk.app.notice == f"test pack: kept among your packs, in {short_path(screen.path)}"
 
@@ -301,6 +317,6 @@ def test_a_file_that_is_not_a_pack_is_refused_where_it_was_chosen(
 ) -> None:
     (bad := tmp_path / "bad.zip").write_bytes(b"no zip")
     empty_desk.choose("Open a zip...")
-    empty_desk.shown(pack_sharing.ZipsScreen).open_file(bad)
+    empty_desk.shown(ZipsScreen).open_file(bad)
     assert empty_desk.shown(PackScreen) is screen
     assert "neither a folder nor a zip that can be a pack" in empty_desk.app.notice

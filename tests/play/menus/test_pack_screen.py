@@ -354,18 +354,14 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_reported(
 
 
 def test_a_pack_that_is_deleted_can_be_found_again(desk: Desk, screen: PackScreen) -> None:
-    screen.packer.path, screen.packer.saved, screen.packer.text = (
-        desk.path,
-        desk.path.with_suffix(".zip"),
-        "Saved: laundry.zip",
-    )
+    screen.packer.path, screen.packer.text = desk.path, "Saved: laundry.zip"
     for answer, there in (("Cancel", True), ("Delete it", False)):
         desk.choose("More...")
         desk.choose("Delete the pack...")
         desk.choose(answer)
         assert (desk.path.exists(), bool(screen.own_packs)) == (there, there)
     assert Pack(desk.player.folder / "deleted" / "laundry").name == "Laundry"
-    assert not any((screen.packer.text, screen.packer.saved)), "no text about what is gone"
+    assert not screen.packer.text, "no text about what is gone"
     assert "in the folder deleted/laundry now" in desk.app.notice.replace("\\", "/")
 
 
@@ -456,7 +452,7 @@ def test_the_disk_is_read_again_only_when_it_changed(desk: Desk, screen: PackScr
         desk.leave_editor()
         assert desk.top() is screen
         read.reset_mock()
-        screen.change_pack(lambda: packs.rename_episode(desk.path, 0, "Other"), "Rename")
+        screen.run_step(lambda: packs.rename_episode(desk.path, 0, "Other"), "Rename")
         assert read.call_count == 1
         read.reset_mock()
         with patch("pygame.scrap.get_text", Pack(PACK).files.link):

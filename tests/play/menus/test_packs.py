@@ -18,7 +18,6 @@ from ninja_game.play.main import first_screen
 from ninja_game.play.main_menu import MainMenu
 from ninja_game.play.menus.browser import Browser, LevelChoice
 from ninja_game.play.menus.episodes import NAMED_CELL, Cells, EpisodeGrid
-from ninja_game.play.menus.pack_card import PackCard
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from ninja_game.player.progress import Mark, next_par, result_sentence
@@ -44,7 +43,7 @@ def test_a_zip_that_is_only_played_can_be_kept(driver: MenuDriver, tmp_path: Pat
         assert "Keep it" in drawn(driver.app)
         driver.choose("Keep it")
         driver.frames(2)
-        driver.choose("Play" if isinstance(driver.top(), PackCard) else "Play it")
+        driver.choose("Play it")
         grid = driver.shown(EpisodeGrid)
         kept = driver.player.folder / LEVELS / "test-pack"
         assert (grid.pack.path, grid.pack.received) == (kept, True)
@@ -61,9 +60,8 @@ def test_a_zip_that_is_dropped_on_the_first_screen_is_received(driver: MenuDrive
     zipped = tmp_path / "washing.zip"
     zipped.write_bytes(Pack(PACK).files.zipped())
     driver.drop_file(zipped)
-    assert driver.shown(PackCard).title == "test pack"
-    driver.choose("Not now")
-    driver.shown(PackScreen)
+    assert driver.shown(PackScreen).is_received
+    assert "text 'test pack' at" in drawn(driver.app)
     driver.press("escape")
     driver.shown(Browser)
 
@@ -133,7 +131,6 @@ def test_zip_dropped_on_the_list_of_levels_is_received_as_a_pack(driver: MenuDri
     zipped = shutil.make_archive(str(tmp_path / "dropped"), "zip", path)
     browser = driver.opened("Levels", Browser)
     driver.drop_file(Path(zipped))
-    driver.choose("Not now")
     assert [(pack.name, pack.received) for pack in driver.shown(PackScreen).own_packs] == [("Other", True)]
     driver.press("escape")
     assert browser.message == ""
@@ -158,7 +155,7 @@ def test_a_pack_says_who_made_it_and_where_more_come_from(driver: MenuDriver) ->
     assert "Ida" not in drawn(driver.app)
     driver.press("up", "right")
     assert "'Other by Ida. Small rooms, one idea each.'" in drawn(driver.app)
-    assert "Levels > Packs > Paste link takes in more" in drawn(driver.app)
+    assert "Open a pack takes in more" in drawn(driver.app)
     assert "levels passed by" not in drawn(driver.app)
     driver.app.change_settings(name="Bob")
     assert "levels passed by Bob" in drawn(driver.app), "it says whose records these are"
