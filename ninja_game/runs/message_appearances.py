@@ -22,8 +22,9 @@ class Appearance(NamedTuple):
 
     due: int  #: the tick in which it comes as the only one, from 0
     tick: int | None  #: the tick in which it comes beside the other messages; None: they displace it
-    spot: Point
+    spot: Point  #: of the ninja then
     cut: int = 0  #: the ticks after which another replaces it before it was read; 0: none does
+    event: Point | None = None  #: the place of the event that it is about, px
 
 
 def appearances(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -> list[Appearance | None]:
@@ -41,7 +42,7 @@ def appearances(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -
             # A level waits at its start: its messages there can be read before the run.
             need = _GLANCE if message.when == Moment.START else read_ticks(text)
             is_cut = coming.ticks < min(wanted.ticks, need)
-            comings.append(Appearance(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0))
+            comings.append(Appearance(wanted.tick, coming.tick, coming.spot, coming.ticks if is_cut else 0, coming.event))
     return comings
 
 
@@ -79,6 +80,7 @@ class _Coming(NamedTuple):
 
     tick: int
     spot: Point
+    event: Point | None  #: the place of the event that it is about, px
     ticks: int = 0
 
 
@@ -96,6 +98,7 @@ def _first_shown(messages: tuple[LevelMessage, ...], level: Level, inputs: bytes
         run.step_keys(keys)
         for queue, comings in queues:
             queue.on_tick(run.world)
-            coming = comings.get(queue.text) or _Coming(tick, (run.world.ninja.x, run.world.ninja.y))
+            event = queue.message and queue.event_places.get(queue.message)
+            coming = comings.get(queue.text) or _Coming(tick, (run.world.ninja.x, run.world.ninja.y), event)
             comings[queue.text] = coming._replace(ticks=coming.ticks + 1)
     return together, alone

@@ -176,7 +176,8 @@ class LevelPlay:
             return None
         shown = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
         spot = self.spots.get(queue, TextSpot())
-        layout = self.playthrough.level.tiles, self.things, queue.message, spot.ninja
+        event = queue.message and queue.event_places.get(queue.message)
+        layout = self.playthrough.level.tiles, self.things, queue.message, spot.ninja, event
         # The text for a player who is stuck stays in place, too.
         placed = placed_message(shown, *layout, of_start=queue.is_start or is_advice)
         moves = tuple(

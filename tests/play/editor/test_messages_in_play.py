@@ -25,9 +25,10 @@ from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import CELL, RADIUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
-from ninja_game.view.hud import Hud
+from ninja_game.view.hud import Hud, PlacedMessage
+from ninja_game.view.places import away_from
 from tests.support.draw_log import DrawLog, drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.message_page import DOORS, LONG, RIGHT, WELCOME, AtOnce, opened, said, select, words
@@ -295,6 +296,40 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
         play.run_ticks(1)
         heard.add(play.messages.text.partition(",")[0])
     assert heard == ({"", "Hold {right}"} if helps else {""})
+
+
+@pytest.mark.parametrize("text", ["Shiny!", LONG])
+def test_what_is_said_of_an_event_lies_beside_it_and_points_to_it_in_play_and_in_the_picture(
+    doors: Maker, text: str
+) -> None:
+    says = f"start: Go | gold: {text} | switch: {text} now | lock 11,22: {text} open | trap: {text} shut"
+    screen = opened(doors, says)
+    hud, drawn_texts = Hud(doors.app.theme), dict[str, PlacedMessage]()
+    with patch.object(Hud, "draw", lambda _, __, view: drawn_texts.setdefault(view.message.text, view.message)):
+        for row in range(5):
+            select(doors, row)
+            doors.frames(1)
+    assert screen.checks.known_run.result, "the ninja's places in that run are known"
+    doors.choose("OK")
+    doors.press("f5")
+    play = doors.shown(PlaytestScreen).play
+    play.begin()
+    shown = dict[str, PlacedMessage]()
+    with patch.object(doors.app.controls, "poll", lambda: 2):
+        for _ in range(120):
+            play.run_ticks(1)
+            placed = play.placed(play.messages)
+            if placed and placed.text not in shown:
+                shown[placed.text] = placed
+                assert away_from(play.ninja_place(), *hud.box(placed).area) > RADIUS, "never over the ninja"
+    places = {text: (5, 22), f"{text} now": (7, 22), f"{text} open": (11, 22), f"{text} shut": (13, 22)}
+    assert {placed.text for placed in shown.values() if not placed.frame} == {"Go"}
+    for words_of, cell in places.items():
+        assert shown[words_of].place == middle_of(cell)
+        assert away_from(middle_of(cell), *hud.box(shown[words_of]).area) <= 4.2 * CELL
+    assert {words_of: hud.box(placed) for words_of, placed in drawn_texts.items()} == {
+        words_of: hud.box(placed) for words_of, placed in shown.items()
+    }
 
 
 def test_a_message_that_waits_in_theknown_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
