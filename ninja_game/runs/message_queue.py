@@ -68,6 +68,7 @@ class MessageQueue:
         self._messages, self._advice = messages, advice
         self._tiles = tiles or TileMap()
         self._shown: set[LevelMessage] = set()
+        self.event_places: dict[LevelMessage, Point] = {}  #: where what messages are about has happened, px
         self._read = Counter[str]()  # ticks for which the texts were shown
         self.deaths = 0
         self._say()
@@ -162,7 +163,8 @@ class MessageQueue:
         here = {message for message in self._messages if self._is_at(world, message)}
         reached, self._here = here - self._here, here
         ahead = [message for message in self._messages if message not in self._shown]
-        happened = [message for message in ahead if any(_is_of(message, event, world) for event in events)]
+        happened = {m: (event.x, event.y) for m in ahead for event in events if _is_of(m, event, world)}
+        self.event_places.update(happened)
         shown = self._column(anything_happened=bool(happened))
 
         def replaces(message: LevelMessage) -> bool:

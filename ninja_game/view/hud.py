@@ -97,24 +97,43 @@ class PlacedMessage(NamedTuple):
     things: Things
     place: Point | None  #: the place that it is about, px
     covers: bool  #: whether it may cover open space too; else it may lie in the border below
-    frame: Area | None = None  #: of its place, px: it lies beside that, whatever it covers, and points to it
+    frame: Area | None = None  #: of its place, px: it lies beside that and points to it; of an event without size
     taken: Area | None = None  #: where another text was when it came, px
     moves: tuple[int, ...] = ()  #: the keys of each line
 
 
 def placed_message(
-    text: str, tiles: tuple[int, ...], things: Things, near: LevelMessage | None, spot: Point | None, *, of_start: bool
+    text: str,
+    tiles: tuple[int, ...],
+    things: Things,
+    near: LevelMessage | None,
+    spot: Point | None,
+    event: Point | None = None,
+    *,
+    of_start: bool,
 ) -> PlacedMessage:
-    """A text beside the place of ``near``, or near ``spot``, px, where the ninja was when it came, and never over that.
+    """A text beside the place of ``near`` or that of its ``event``, else near ``spot``, and never over that, all in px.
 
-    ``of_start``: it stays in place, and may cover open space.
+    Where nothing is at the place of ``near``, it points to the floor below that, within its frame.
+    ``spot``: where the ninja was when it came. ``of_start``: it stays in place, and may cover open space.
     """
+    seen = (*things, (*spot, MUST)) if spot else things
     if near is None or near.place is None:
+        if event:
+            return PlacedMessage(text, tiles, seen, event, of_start, (*event, 0, 0))
         return PlacedMessage(text, tiles, things, spot, of_start)
     (x, y), (half_w, half_h) = near.middle, near.reach
-    frame = x - half_w, y - half_h, 2 * half_w, 2 * half_h
-    things = (*things, (*spot, MUST)) if spot else things
-    return PlacedMessage(text, tiles, things, near.place, of_start, frame)
+    is_thing = any(hidden_by(things, *near.place, 0, 0))
+    place = near.place if is_thing else _standing_below(tiles, near.place, y + half_h)
+    return PlacedMessage(text, tiles, seen, place, of_start, (x - half_w, y - half_h, 2 * half_w, 2 * half_h))
+
+
+def _standing_below(tiles: tuple[int, ...], at: Point, lowest: float) -> Point:
+    """The middle of the cell on the floor below ``at``, px, the middle of a cell; ``at`` if no floor is that high."""
+    first = ROWS * (int(at[0] // CELL) - 1)
+    down = (*tiles[first : first + ROWS], 1)[int(at[1] // CELL) - 1 : int(lowest // CELL)]
+    floor = next((rows for rows, tile in enumerate(down) if tile), 0)
+    return at[0], at[1] + CELL * max(0, floor - 1)
 
 
 class EndPanel(NamedTuple):
@@ -311,7 +330,8 @@ class Hud:
 
         If it would hide something there, or open space that it may not cover, it lies where it hides least, but never
         over the ninja or what it must not hide, and else in the border below, beside the gold. A message with a place
-        lies at most four cells from it, and hides as little of its frame as it can.
+        lies at most four cells from it, and hides as little of its frame as it can; one of an event up to twelve if
+        it would hide an object nearer.
         """
         return _box(self._measures, message)
 
@@ -388,16 +408,19 @@ def _box(theme: Theme, message: PlacedMessage) -> Box:
     for area, cost in ((frame, MAY), (taken, 9 * MUST)):
         things = (*things, *points_in(area, cost)) if area else things
     boxes: list[tuple[int, Box]] = []
-    for rows, share in (
-        ((0, 1), (0, 0.6), (0, 0.4), (0, 0.3)) if anchor else ((1, 1), (2, 1), (2, 0.6), (0, 1), (0, 0.6))
-    ):
+    ways = [(1, 1, 1), (2, 1, 1), (2, 0.6, 1), (0, 1, 1), (0, 0.6, 1)]
+    if frame:
+        ways = [(0, share, reach) for reach in ((1,) if frame[2] else (1, 2, 3)) for share in (1, 0.6, 0.4, 0.3)]
+    for rows, share, reach in ways:
+        if reach > 1 and min(boxes)[0] < MUST:
+            break
         lines = text.split("\n")
         if not keys:
             lines = [part for line in lines for part in wrapped(theme, line, share * _MESSAGE_WIDTH, _MESSAGE_SIZE)]
         lines = [theme.fit(line, _MESSAGE_MAX_WIDTH - keys, _MESSAGE_SIZE) for line in lines]
         width = min(max(theme.width(line, _MESSAGE_SIZE) for line in lines), _MESSAGE_MAX_WIDTH - keys) + 28 + keys
         left, y, covered, hidden = solid_place(
-            tiles, width, line_height * len(lines) + 19, things, place, rows=rows, beside=anchor
+            tiles, width, line_height * len(lines) + 19, things, place, rows=rows, beside=anchor, reach=reach
         )
         box = Box(lines, left, y, width, line_height, 10.0, _MESSAGE_SIZE)
         if hidden < (MUST if keys else 1) and (covers or not rows or not covered):

@@ -64,9 +64,9 @@ def hidden_by(things: Things, x: float, y: float, w: float, h: float) -> Iterato
     return (cost for a, b, cost in things if -_NEAR < a - x < w + _NEAR and -_NEAR < b - y < h + _NEAR)
 
 
-def _around(at: float, size: float, first: float, last: float) -> list[float]:
+def _around(at: float, size: float, away: float, first: float, last: float) -> list[float]:
     """Left or upper edges for a panel near a coordinate, within an area."""
-    step = (_AWAY + size / 2) / 6
+    step = (away + size / 2) / 6
     return [min(max(first, at + k * step - size / 2), last - size) for k in range(-6, 7)]
 
 
@@ -80,14 +80,16 @@ def solid_place(
     *,
     rows: int = 0,
     beside: Point | None = None,
+    reach: int = 1,
 ) -> tuple[float, float, int, int]:
     """Upper left corner of a panel of that size, px, then the whole cost, and the part of it for hidden things.
 
     Solid cells cost nothing, open cells beside solid ones most. Of equal places the one nearest to ``near`` is taken,
     or to the middle of the upper border. ``rows``: only at the left, in the middle and at the right of that many
-    heights, from the upper border to the lower one; ``beside``: only around that place, _BESIDE to _AWAY px from it.
+    heights, from the upper border to the lower one; ``beside``: only around that place, _BESIDE to ``reach`` times
+    _AWAY px from it.
     """
-    open_cells, ways = _ways(tiles)
+    (open_cells, ways), away = _ways(tiles), reach * _AWAY
 
     def cost(place: tuple[float, float]) -> tuple[int, float, int]:
         x, y = place
@@ -105,11 +107,11 @@ def solid_place(
     apart = (_MAX_BOTTOM - h - edge) / max(1, rows - 1) if rows else 6
     tops = [edge + k * apart for k in range(rows or int((_MAX_BOTTOM - h - edge) / 6))]
     if beside:
-        things = tuple(thing for thing in things if away_from(thing[:2], *beside, 0, 0) < hypot(w, h) + 2 * _AWAY)
-        lefts = _around(beside[0], w, edge, WIDTH - edge)
-        tops = _around(beside[1], h, edge, _MAX_BOTTOM)
+        things = tuple(thing for thing in things if away_from(thing[:2], *beside, 0, 0) < hypot(w, h) + 2 * away)
+        lefts = _around(beside[0], w, away, edge, WIDTH - edge)
+        tops = _around(beside[1], h, away, edge, _MAX_BOTTOM)
     places = [(x, y) for x in lefts for y in tops]
-    clear = [place for place in places if beside and _BESIDE - 1 <= away_from(beside, *place, w, h) < _AWAY + 4]
+    clear = [place for place in places if beside and _BESIDE - 1 <= away_from(beside, *place, w, h) < away + 4]
     x, y = min(clear or places, key=cost)
     covered, _, hidden = cost((x, y))
     return x, y, covered, hidden

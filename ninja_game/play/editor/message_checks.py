@@ -9,11 +9,11 @@ from typing import NamedTuple
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.message_rows import EditedMessages, MessageField, MessageRow
 from ninja_game.formats.messages import LevelMessage, arrow_targets, parse_messages
-from ninja_game.levels.findings import LEVEL_WORDINGS, Finding
+from ninja_game.levels.findings import Finding
 from ninja_game.levels.ground import Ground
 from ninja_game.levels.lint import unseen_messages
 from ninja_game.play.level.level_play import things_at_start
-from ninja_game.runs.message_appearances import Appearance, appearances, late_text, short_text
+from ninja_game.runs.message_appearances import Appearance, appearances, late_hint, late_text, message_name, short_text
 from ninja_game.runtime import NewestJob
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
@@ -116,13 +116,14 @@ class MessageChecks:
         for finding in self._unseen(row):
             return finding.hint
         moment = self.appearance(row)
-        return LEVEL_WORDINGS["late-message"].hint if moment and late_text(moment, 1) else ""
+        return late_hint(moment) if moment else ""
 
     def _late_text(self, row: MessageRow, *, lost: bool) -> str:
         """That a message is lost to others in the known run, or else how late it is; '' if it is not."""
         moment = self.appearance(row) if self._edited.together(row)[0] is row else None
         is_so = moment and (moment.tick is None) is lost
-        return late_text(moment, len(self._certifying_inputs())) if moment and is_so else ""
+        names = [message_name(self._edited.rows.index(valid), valid.text) for valid in self._edited.valid]
+        return late_text(moment, len(self._certifying_inputs()), names) if moment and is_so else ""
 
     def _unseen(self, row: MessageRow) -> list[Finding]:
         return [] if row.problem[1] else [*unseen_messages(row.source, self._ground)]

@@ -202,13 +202,13 @@ class MessagePicture:
             return None
         message = _near_place(row)
         moment = self._checks.appearance(row)
-        spot: Point | None = None
+        spot = None if message else ninja_place(self._draft, row)
+        event = None if row.when == Moment.START else spot
         if moment and row.when != Moment.START:
-            spot = moment.spot
-        elif not message:
-            spot = ninja_place(self._draft, row)
+            spot, event = moment.spot, moment.event
         things = self._checks.things if stage.world else ()
-        return placed_message(text, self._draft.level.tiles, things, message, spot, of_start=row.when == Moment.START)
+        is_start, tiles = row.when == Moment.START, self._draft.level.tiles
+        return placed_message(text, tiles, things, message, spot, event, of_start=is_start)
 
     def _text_in_play(self, row: MessageRow) -> str:
         """A text with the player's keys, and with its numbers when it comes."""

@@ -178,7 +178,8 @@ class LevelPlay:
             return None
         words = level_text(text, self.app.controls.name, self.attempt.gold, self.all_gold, self.messages.deaths)
         spot = self.spots.get(queue, TextSpot())
-        layout = self.playthrough.level.tiles, self.things, queue.message, spot.ninja
+        event = queue.message and queue.event_places.get(queue.message)
+        layout = self.playthrough.level.tiles, self.things, queue.message, spot.ninja, event
         # The text for a player who is stuck stays in place, too.
         placed = placed_message(words, *layout, of_start=queue.is_start or is_advice)
         lines = text.split("\n") if is_advice else []

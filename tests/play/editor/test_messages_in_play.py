@@ -25,9 +25,10 @@ from ninja_game.sim.grid import cell_of, middle_of
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import CELL, RADIUS, TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
-from ninja_game.view.hud import Hud
+from ninja_game.view.hud import Hud, PlacedMessage
+from ninja_game.view.places import away_from
 from tests.support.draw_log import DrawLog, drawn
 from tests.support.level_maker import ROOM, Maker
 from tests.support.message_page import DOORS, LONG, RIGHT, WELCOME, AtOnce, opened, said, select, words
@@ -183,15 +184,20 @@ def test_a_message_that_is_lost_to_another_is_a_problem_with_its_place(doors: Ma
     doors.put_says("trap: Two | at 15,22!: Three | at 18,22: Four | at 9,22: Five | gold!: One | death 1: Six")
     late = [finding for finding in session.examine() if finding.code == "late-message"]
     assert [(finding.text, finding.cells) for finding in late] == [
-        (f"the message '{text}' is not shown {RUN}: others are read then", (cell,))
-        for text, cell in (("Two", (13, 22)), ("Four", (18, 22)))
+        (f"the message '{text}' is not shown {RUN}: message {other} is read then", (cell,))
+        for text, cell, other in (("Two", (13, 22), "5 'One'"), ("Four", (18, 22), "2 'Three'"))
     ]
     opened(doors)
-    for row, text, colour in ((3, "Replaced after", "text"), (2, "Message 3 is wrong. Not shown", "bad")):
+    other, first = "Shorten this one, make it important", "Shorten what is read before it"
+    for row, text, colour, by, hint in (
+        (3, "Replaced by", "text", "by message 2 'Three' after", other),
+        (2, "Message 3 is wrong. Not shown", "bad", "message 2 'Three' is read then", first),
+    ):
         select(doors, row)
-        assert re.search(rf"text '{text}.*' at .* {colour}", drawn(doors.app))
-        assert "others are read then" in words(doors) or row == 3
-        assert "Shorten what is read before it" in words(doors)
+        assert re.search(rf"text .{text}.* at .* {colour}", drawn(doors.app))
+        assert by in words(doors)
+        assert hint in words(doors)
+        assert ({other, first} - {hint}).pop() not in words(doors)
 
 
 def test_a_place_has_its_bubble_beside_the_welcome_and_each_is_drawn_when_it_comes(room: Maker) -> None:
@@ -240,7 +246,10 @@ def test_what_is_lost_because_of_a_place_is_a_problem_and_a_welcome_cut_short_is
     session = doors.editor.session
     session.certifier.certification = search_of(doors.draft.level, verified_run(doors.draft.level, RIGHT))
     for says, late in (
-        (f"at 3,22!: {WELCOME} | at 9,22: Wall ahead", f"'Wall ahead' is not shown {RUN}: others are read then"),
+        (
+            f"at 3,22!: {WELCOME} | at 9,22: Wall ahead",
+            f"'Wall ahead' is not shown {RUN}: message 1 '{WELCOME[:21].rstrip()}...' is read then",
+        ),
         (f"start: {WELCOME} | at 3,22: Wall ahead", ""),
         (f"start: {WELCOME} | gold: Well", ""),
         (f"start: {WELCOME} | start: Two | trap: Late", ""),
@@ -297,18 +306,52 @@ def test_in_a_level_with_messages_the_game_says_nothing_of_its_own(room: Maker, 
     assert heard == ({"", "Hold {right}"} if helps else {""})
 
 
+@pytest.mark.parametrize("text", ["Shiny!", LONG])
+def test_what_is_said_of_an_event_lies_beside_it_and_points_to_it_in_play_and_in_the_picture(
+    doors: Maker, text: str
+) -> None:
+    says = f"start: Go | gold: {text} | switch: {text} now | lock 11,22: {text} open | trap: {text} shut"
+    screen = opened(doors, says)
+    hud, drawn_texts = Hud(doors.app.theme), dict[str, PlacedMessage]()
+    with patch.object(Hud, "draw", lambda _, __, view: drawn_texts.setdefault(view.message.text, view.message)):
+        for row in range(5):
+            select(doors, row)
+            doors.frames(1)
+    assert screen.checks.known_run.result, "the ninja's places in that run are known"
+    doors.choose("OK")
+    doors.press("f5")
+    play = doors.shown(PlaytestScreen).play
+    play.begin()
+    shown = dict[str, PlacedMessage]()
+    with patch.object(doors.app.controls, "poll", lambda: 2):
+        for _ in range(120):
+            play.run_ticks(1)
+            placed = play.placed(play.messages)
+            if placed and placed.text not in shown:
+                shown[placed.text] = placed
+                assert away_from(play.ninja_place(), *hud.box(placed).area) > RADIUS, "never over the ninja"
+    places = {text: (5, 22), f"{text} now": (7, 22), f"{text} open": (11, 22), f"{text} shut": (13, 22)}
+    assert {placed.text for placed in shown.values() if not placed.frame} == {"Go"}
+    for words_of, cell in places.items():
+        assert shown[words_of].place == middle_of(cell)
+        assert away_from(middle_of(cell), *hud.box(shown[words_of]).area) <= 4.2 * CELL
+    assert {words_of: hud.box(placed) for words_of, placed in drawn_texts.items()} == {
+        words_of: hud.box(placed) for words_of, placed in shown.items()
+    }
+
+
 def test_a_message_that_waits_in_theknown_run_says_for_how_long(room: Maker, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(400)))
     screen = opened(room, "after 1 s: Go | after 2 s: On | after 9 s: No")
     assert " late in" not in words(room)
     select(room, 1)
-    assert "2 s late in the known run (10.0 s): others are read first" in words(room)
+    assert "2 s late in the known run (10.0 s): message 1 'Go' is read first" in words(room)
     screen.edited.rows[0].text = "long " * 24
     assert "7 s late in" in words(room)
     select(room, 2)
     screen.edited.rows[2].when, screen.edited.rows[2].detail = Moment.AFTER, "3"
     monkeypatch.setattr(type(room.editor.session), "certifying_inputs", property(lambda _: bytes(300)))
-    assert "Not shown in the known run (7.5 s): others are read then" in words(room)
+    assert "Not shown in the known run (7.5 s): message 1 'long long long long l...' is read then" in words(room)
 
 
 def test_a_test_of_gold_in_the_air_begins_on_a_floor_from_which_it_is_taken(
@@ -341,4 +384,4 @@ def test_the_known_run_is_played_in_the_background(doors: Maker, monkeypatch: py
     answer(run, asked[0])
     doors.press("down")
     doors.frames(2)
-    assert "Replaced after" in words(doors)
+    assert "Replaced by message 1 'One' after" in words(doors)

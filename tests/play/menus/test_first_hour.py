@@ -270,7 +270,9 @@ def test_what_is_said_of_a_place_lies_beside_it_and_points_to_it(
     level.play.spots[level.play.places] = TextSpot((10.0, 10.0))
     view = hud_view(level.play)
     assert view.bubble
-    assert view.bubble[3:] == (place, False, (place[0] - 60, place[1] - 60, 120, 120), None, ())
+    low = place[1] + 48 if place == (204.0, 516.0) else place[1]  # the floor is as far below as the frame
+    assert view.bubble[3:] == ((place[0], low), False, (place[0] - 60, place[1] - 60, 120, 120), None, ())
+    place = place[0], low
     hud, surface = Hud(driver.app.theme), driver.app.surface
     everywhere = tuple((12.0 + 24 * x, 12.0 + 24 * y, MUST) for x in range(33) for y in range(25))
     for tiles, things in (((0,) * 713, ()), ((1,) * 713, ()), ((0,) * 713, everywhere)):
@@ -337,3 +339,21 @@ def test_a_short_text_beside_a_place_hides_no_exit_no_switch_and_no_enemy(name: 
     box = hud.box(placed_message(here.text, level.tiles, things, here, place, of_start=False))
     assert MUST not in hidden_by(things, *box.area)
     assert away_from(place, *box.area) <= 4.2 * CELL
+
+
+@pytest.mark.parametrize(
+    "cell, size, things, row",
+    [
+        ((5, 10), (3, 15), (), 17),
+        ((5, 10), (3, 5), (), 10),
+        ((5, 10), (3, 15), ((132.0, 252.0, MUST),), 10),
+        ((5, 22), (5, 5), (), 22),
+    ],
+)
+def test_a_place_in_the_air_has_its_tail_on_the_floor_of_its_frame(
+    cell: tuple[int, int], size: tuple[int, int], things: tuple[tuple[float, float, int], ...], row: int
+) -> None:
+    """Unless a thing is there that the text can be about, or the floor is below the frame."""
+    tiles = tuple(int(row in {17, 22}) for _ in range(31) for row in range(ROWS))
+    here = LevelMessage(Moment.AT, "Here", cell=cell, size=size)
+    assert placed_message("Here", tiles, things, here, None, of_start=False).place == middle_of((5, row))

@@ -321,6 +321,13 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_reported(
 
     monkeypatch.setattr("ninja_game.search.solve.solve", solve)
     monkeypatch.setattr("ninja_game.editor.solver.compiled_available", lambda: True)
+    notify = empty_desk.app.notify
+
+    def note(text: str, **_: object) -> None:
+        reports.append(text)
+        notify(text)
+
+    monkeypatch.setattr(empty_desk.app, "notify", note)
     screen = empty_desk.open_packs()
     screen.choose_tray("yours")
     for index in (0, 1):
@@ -336,13 +343,7 @@ def test_a_run_follows_its_level_into_a_pack_and_a_lost_one_is_reported(
 
     assert states() == ["Walk: no run yet"]
     (levels / "Gap.txt").unlink()
-    notify = empty_desk.app.notify
-
-    def note(text: str, **_: object) -> None:
-        reports.append(text)
-        notify(text)
-
-    monkeypatch.setattr(empty_desk.app, "notify", note)
+    reports.clear()
     go_on.set()
     empty_desk.wait(lambda: len(reports) == 2)
     assert sorted(reports) == [
