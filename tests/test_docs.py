@@ -234,6 +234,22 @@ def test_a_short_text_about_a_constant_of_one_line_stands_beside_it(folder: str)
     assert not below, "write it as a comment beside the constant"
 
 
+def test_a_comment_beside_a_field_begins_with_a_colon_and_beside_a_constant_without() -> None:
+    odd = []
+    for path in SOURCES:
+        text = text_of(path)
+        tree = ast.parse(text)
+        classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+        for field, node in [(0, node) for node in tree.body] + [
+            (1, node) for record in classes for node in record.body
+        ]:
+            if isinstance(node, ast.AnnAssign) or (isinstance(node, ast.Assign) and not field):
+                beside = text.splitlines()[(node.end_lineno or 0) - 1].encode()[node.end_col_offset or 0 :].decode()
+                if re.match("  # (?!noqa|type:|fmt:)" if field else "  #:", beside):
+                    odd.append(f"{named(path)}:{node.lineno}{beside}")
+    assert not odd
+
+
 def test_what_docstrings_of_functions_explain_exists() -> None:
     """A ``name`` before a colon is a parameter, or stands in the body."""
     explained = [

@@ -66,3 +66,12 @@ def test_the_drawing_of_the_architecture_has_the_floors_of_the_import_contract()
     floors = [line[20:] for line in drawing.splitlines()]
     assert floors == layers
     assert not [name for floor in floors for name in floor.split(" | ") if f"`{name}`" not in text]
+
+
+def test_the_architecture_says_where_the_tests_are_of_what_has_no_folder_of_tests() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text("utf-8")
+    (row,) = re.findall(r"^\| `tests` \|.*", page, re.MULTILINE)
+    tested = {room.name for room in (ROOT / "tests").iterdir()}
+    rooms = {path.parent.name for path in (ROOT / "ninja_game").glob("*/__init__.py")}
+    assert rooms - tested == {*re.findall(r"`(\w+)`", row)} - {"tests"}
+    assert all((ROOT / folder).is_dir() for folder in re.findall(r"`(tests/\w+)`", row))

@@ -16,7 +16,7 @@ import grimp
 from tools import ROOT
 
 FOLDERS = ("ninja_game", "tests", "tools", "benchmarks", "examples")
-PAGE = r"ninja_game/(web/(shim/|page/|figures\.py)|__main__\.py)"  #: it has the names of pygame, and of programs
+PAGE = r"ninja_game/(web/(shim/|page/|figures\.py)|__main__\.py)"  # it has the names of pygame, and of programs
 
 REASONS = {
     "UP": "a direction of the world; the folder above a page",
@@ -26,10 +26,9 @@ REASONS = {
 }
 """Names that two modules share with a good reason; a command may have the name of what does its work."""
 
-LIKE = {"demonstration"}  #: a public function and the type of what it makes
+LIKE = {"demonstration"}  # a public function and the type of what it makes
 
-HIDDEN_PARAMETERS = {"record", "site"}
-"""Options of commands beside a command of that name: click passes them by their names."""
+HIDDEN_PARAMETERS = {"record", "site"}  # options beside a command of that name: click passes them by their names
 
 PLAIN = {
     *("name", "author", "comment", "player", "file", "record", "line", "level", "body", "gold", "kind", "id", "slot"),
@@ -42,9 +41,9 @@ PLAIN = {
 EXPLAINED = r"ninja_game/(simulation\.py|errors\.py|(sim|formats|runs|batch|search|learn|levels)/)"
 """The modules behind the public functions and commands."""
 
-ELSEWHERE = 8  #: lines that a skip of the formatter saves outside of a table of data, at least
+ELSEWHERE = 8  # lines that a skip of the formatter saves outside of a table of data, at least
 
-Sources = Mapping[str, str]  #: texts of files by their paths from the project's folder
+Sources = Mapping[str, str]  # texts of files by their paths from the project's folder
 
 parsed = cache(ast.parse)
 

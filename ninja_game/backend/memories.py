@@ -125,8 +125,11 @@ def open_worlds(
         raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first call imports Numba, which must come before NumPy.
     if not isinstance(memory, Plan):
-        begins = at_once and memory == "auto"
-        begins = begins and register_run(memory, ticks * max(map(tick_cost, several), default=0))
+        begins = False
+        if at_once and memory == "auto":
+            work = ticks * max(map(tick_cost, several), default=0)
+            if begins := begins_on_plain(memory, work):
+                count_run(work)
         memory = Plan("plain" if begins else _usable_memory(memory), "compiled", checked=False)
     if memory.first == "plain":
         return PlainWorlds(several, count, box=box)
@@ -135,19 +138,19 @@ def open_worlds(
     return CompiledWorlds(partial(compiled, checked=memory.checked), several, count, box=box)
 
 
-def prefers_plain() -> bool:
-    """Whether a run begins on the plain memory even if it is much work: its kernels are not compiled yet."""
-    return _has_choice("auto", checked=False) and not kernels_ready(checked=False)
-
-
-def register_run(memory: str, work: int, *, checked: bool = False) -> bool:
-    """Count a run that begins now, or let a process compile its missing kernels; whether it is on the plain memory."""
-    if not _has_choice(memory, checked=checked):
-        return False
+def begins_on_plain(memory: str, work: int, *, checked: bool = False) -> bool:
+    """Whether a run that begins now is on the plain memory: by "auto", and little work or without its kernels."""
     little = PROCESS.short_work + work <= PLAIN_WORK
-    missing = warm_up(checked=checked)
-    PROCESS.short_work += work if little and not missing else 0
-    return little or missing
+    return _has_choice(memory, checked=checked) and (little or not kernels_ready(checked=checked))
+
+
+def count_run(work: int, *, checked: bool = False) -> None:
+    """Count a run that begins on the plain memory; or let a background process compile its missing kernels."""
+    # More than little work is there for lack of kernels only.
+    if PROCESS.short_work + work <= PLAIN_WORK and kernels_ready(checked=checked):
+        PROCESS.short_work += work
+    else:
+        _start_compiler()
 
 
 def _has_choice(memory: str, *, checked: bool) -> bool:
@@ -159,13 +162,16 @@ def _has_choice(memory: str, *, checked: bool) -> bool:
     return background_compiler.is_enabled() and (load_world, checked or _ALL_CHECKED) not in PROCESS.kernels
 
 
-def warm_up(*, checked: bool = False) -> bool:
-    """Let a background process compile the kernels of a run; gives whether they were not compiled yet."""
-    if missing := compiled_available() and not kernels_ready(checked=checked):
-        from ninja_game.backend import background_compiler
+def compile_missing() -> None:
+    """Let a background process compile the kernels of a run that are not compiled yet."""
+    if compiled_available() and not kernels_ready(checked=False):
+        _start_compiler()
 
-        background_compiler.start()
-    return missing
+
+def _start_compiler() -> None:
+    from ninja_game.backend import background_compiler
+
+    background_compiler.start()
 
 
 def kernels_ready(*, checked: bool) -> bool:
@@ -218,8 +224,10 @@ def proven_memory(memory: str, work: int = NO_LIMIT) -> Plan:
 
     Raises SelfTestError if it does not pass, and what ``choose_memory`` raises.
     """
-    begins = register_run(memory, work, checked=True)
-    if not begins and _usable_memory(memory, checked=True) == "compiled":
+    begins = begins_on_plain(memory, work, checked=True)
+    if begins:
+        count_run(work, checked=True)
+    elif _usable_memory(memory, checked=True) == "compiled":
         return CHECKED
     _prove_plain()
     return CHECKED_LATER if begins else PLAIN

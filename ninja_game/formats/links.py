@@ -88,16 +88,16 @@ def write_link(kind: LinkKind, texts: Sequence[str]) -> str:
     """
     if not 1 <= len(texts) <= (MAX_TEXTS if kind == "replay" else 1):
         raise LinkError(f"no link carries {len(texts)} of {kind}", expected=f"at most {MAX_TEXTS} replays")
-    link = "#" + "&".join(f"{kind}={LINK_VERSION}.{_packed(text)}" for text in texts)
+    contents = [text.encode("utf-8", "replace") for text in texts]
+    if (size := sum(map(len, contents))) > MAX_LINK_BYTES:
+        raise LinkError("too much for a link", found=f"{size:,} bytes", hint="share the file itself")
+    link = "#" + "&".join(f"{kind}={LINK_VERSION}.{_packed(content)}" for content in contents)
     if len(link) > MAX_CHARACTERS:
         raise LinkError("too much for a link", found=f"{len(link):,} characters", hint="share the file itself")
     return link
 
 
-def _packed(text: str) -> str:
-    data = text.encode("utf-8", "replace")
-    if len(data) > MAX_LINK_BYTES:
-        raise LinkError("too much for a link", found=f"{len(data):,} bytes", hint="share the file itself")
+def _packed(data: bytes) -> str:
     deflate = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS, 9)
     packed = zlib.crc32(data).to_bytes(4, "big") + deflate.compress(data) + deflate.flush()
     return urlsafe_b64encode(packed).rstrip(b"=").decode("ascii")
@@ -131,13 +131,14 @@ def read_link(text: str | Path) -> ParsedLink:
         if int(match[2]) != LINK_VERSION:
             hint = "a link from a newer ninja-game needs a newer ninja-game"
             raise LinkError("a link of an unknown version", LINK, found=match[2], expected=str(LINK_VERSION), hint=hint)
-        texts.append(_unpacked(match[3], left))
-        left -= len(texts[-1])
+        content = _unpacked(match[3], left)
+        left -= len(content)
+        texts.append(decoded(content, LINK))
     return ParsedLink(kind, tuple(texts))
 
 
-def _unpacked(packed: str, most: int) -> str:
-    """Unpack the characters of a link to a text of at most ``most`` bytes. Raises LinkError."""
+def _unpacked(packed: str, most: int) -> bytes:
+    """Unpack the characters of a link to at most ``most`` bytes. Raises LinkError."""
     hint = "it was truncated or changed on the way: copy all of it again"
     try:
         data = urlsafe_b64decode(packed + "=" * (-len(packed) % 4))
@@ -149,7 +150,7 @@ def _unpacked(packed: str, most: int) -> str:
             raise LinkError("the link is not whole", LINK, hint=hint)
     except (ValueError, zlib.error):
         raise LinkError("the link is not whole", LINK, hint=hint) from None
-    return decoded(unpacked, LINK)
+    return unpacked
 
 
 def write_watch(files: Sequence[str]) -> str:

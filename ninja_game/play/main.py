@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.backend.memories import warm_up
+from ninja_game.backend.memories import compile_missing
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.bundled import data_folder
 from ninja_game.formats.links import is_link, read_link, recordings_in_links
@@ -69,7 +69,7 @@ def run_app(
         try:
             app.push(first(app))
             # So that a later search does not wait for the compiler.
-            run_in_background(warm_up, lambda _: None)
+            run_in_background(compile_missing, lambda _: None)
             # Freeze loaded objects: collecting garbage among them took 9 ms during play.
             gc.freeze()
             app.run(frames)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.backend.kernel_cache import before_compiling
-from ninja_game.backend.memories import compiled_available, has_compiled_twin, prefers_plain
+from ninja_game.backend.memories import begins_on_plain, compiled_available, has_compiled_twin
+from ninja_game.budget import NO_LIMIT
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
@@ -51,7 +52,7 @@ def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording],
 def is_prepared() -> bool:
     from ninja_game.backend.kernels import trace_world
 
-    return not compiled_available() or has_compiled_twin(trace_world) or prefers_plain()
+    return not compiled_available() or has_compiled_twin(trace_world) or begins_on_plain("auto", NO_LIMIT)
 
 
 def prepare_rules(run: Recording) -> None:

@@ -44,7 +44,8 @@ class Compiler:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.asked, self.ready_after = 0, 10**9
-        monkeypatch.setattr(memories, "register_run", lambda memory, *_, **__: memory == "auto")
+        monkeypatch.setattr(memories, "begins_on_plain", lambda memory, *_, **__: memory == "auto")
+        monkeypatch.setattr(memories, "count_run", lambda *_, **__: None)
         monkeypatch.setattr(memories, "kernels_ready", self.are_there)
         monkeypatch.setattr(background_compiler, "is_compiling", lambda: True)
         for module in ("backend.memories", "runs.run", "runs.trace"):
@@ -192,16 +193,17 @@ def test_the_first_run_on_a_machine_starts_one_process_that_compiles(
 def test_who_names_a_memory_gets_it_and_starts_nothing(
     memory: str, started: list[tuple[list[str], dict[str, Any]]]
 ) -> None:
-    assert not memories.register_run(memory, 0)
+    assert not memories.begins_on_plain(memory, 0)
+    memories.proven_memory(memory)
     assert not started
 
 
 def test_whether_a_run_begins_on_the_plain_memory_may_be_asked_without_a_process(
     started: list[tuple[list[str], dict[str, Any]]],
 ) -> None:
-    assert memories.prefers_plain()
+    assert memories.begins_on_plain("auto", NO_LIMIT)
     assert not started
-    assert memories.warm_up()
+    memories.compile_missing()
     assert len(started) == 1
 
 
@@ -210,16 +212,18 @@ def test_a_run_that_begins_now_looks_for_its_kernels_once(
 ) -> None:
     asked: list[bool] = []
     monkeypatch.setattr(memories, "kernels_ready", lambda *, checked: asked.append(checked))
-    assert memories.register_run("auto", NO_LIMIT)
-    assert (asked, len(started)) == ([False], 1)
+    for work in (NO_LIMIT, 0):
+        asked.clear()
+        assert memories.open_worlds("auto", ALL_KINDS, box=False, at_once=True, ticks=work).name == "plain"
+        assert (asked, len(started)) == ([False], 1)
 
 
 def test_switched_off_it_is_not_started(
     started: list[tuple[list[str], dict[str, Any]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(background_compiler.VARIABLE, "0")
-    assert not memories.register_run("auto", 0)
-    memories.warm_up()
+    assert not memories.begins_on_plain("auto", 0)
+    memories.compile_missing()
     background_compiler.start()
     assert not started
     assert not background_compiler.is_compiling()

@@ -163,10 +163,13 @@ def test_what_is_taken_in_again_is_read_once(monkeypatch: pytest.MonkeyPatch, tm
     assert len(calls) == 1
 
 
-def test_all_that_is_taken_in_together_has_a_limit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+@pytest.mark.parametrize("comment", [";" * 2**19, f"; {'€' * (2**19 // 3)}"], ids=["letters", "letters of 3 bytes"])
+def test_all_that_is_taken_in_together_has_a_limit(
+    comment: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     monkeypatch.setattr(input_text, "MAX_BYTES", 2**20)
     for name in "ab":
-        (tmp_path / f"{name}.txt").write_text("R\n" + ";" * 2**19)
+        (tmp_path / f"{name}.txt").write_text(f"R\n{comment}", "utf-8")
     main = tmp_path / "run.txt"
     main.write_text(unclaimed_text(WALK, *["include a.txt"] * 9))
     assert load_replays(main)[0].ticks == 9

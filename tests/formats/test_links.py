@@ -171,6 +171,10 @@ def packed(data: bytes, *, checked: bool = True) -> str:
         (f"#level=1.{packed(bytes(20))}", "not a text file"),
         (f"#level=1.{packed(b'0' * (MAX_LINK_BYTES + 1))}", "unpacks to too much"),
         ("#replay=" + "&replay=".join([f"1.{packed(b'0' * (MAX_LINK_BYTES // 2 + 1))}"] * 2), "unpacks to too much"),
+        (
+            "#replay=" + "&replay=".join([f"1.{packed('€'.encode() * (MAX_LINK_BYTES // 6 + 1))}"] * 2),
+            "unpacks to too much",
+        ),
         ("#level=1." + "A" * MAX_CHARACTERS, "too long"),
     ],
 )
@@ -185,6 +189,10 @@ def test_too_much_for_a_link_is_refused_when_it_is_made() -> None:
     for text in ("0" * (MAX_LINK_BYTES + 1), noise):
         with pytest.raises(LinkError, match="too much for a link"):
             write_link("level", [text])
+    half = "€" * (MAX_LINK_BYTES // 6)
+    assert linked_texts(write_link("level", [half * 2]), "level") == (half * 2,)
+    with pytest.raises(LinkError, match="too much for a link"):
+        write_link("replay", [half, f"{half}€€"])
 
 
 def test_bomb_takes_no_more_memory_than_the_limit() -> None:

@@ -1,11 +1,21 @@
 """The edge rule, exhaustively, against a literal reading of world.md §3; cells, lookup, missing neighbours."""
 
 import math
+from pathlib import Path
 
 import pytest
 
 from ninja_game.backend.plain import load_plain
-from ninja_game.sim.collision.tiles import COLUMN, EXISTS, NEIGHBOUR_OFFSET, ODD_HALF_ID, ROW, SHAPE, UNDEFINED_ID
+from ninja_game.sim.collision.tiles import (
+    COLUMN,
+    EDGE_OF_FACES,
+    EXISTS,
+    NEIGHBOUR_OFFSET,
+    ODD_HALF_ID,
+    ROW,
+    SHAPE,
+    UNDEFINED_ID,
+)
 from ninja_game.sim.grid import cell_at, cell_index
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import Level, ObjectSpec
@@ -38,12 +48,22 @@ STATE = {"off": OFF, "interesting": INTERESTING, "solid": SOLID}
 
 
 def literal_state(own: str, neighbour: str) -> str:
-    """The table of world.md §3, row by row."""
+    """The table of world.md §3, column by column."""
     if neighbour == "-":
         return "off"
     if neighbour == "p":
         return "interesting"
     return "off" if own == "F" else "solid"
+
+
+@pytest.mark.parametrize("page", ["rules/world", "how-it-works", "learn/05-edges"])
+def test_every_page_has_the_same_table_of_edges(page: str) -> None:
+    text = (Path(__file__).parents[2] / "docs" / f"{page}.md").read_text("utf-8")
+    heads = "|".join(f" neighbour's face {face} " for face in ("none", "partial", "full"))
+    table = text.partition(f"| own face |{heads}|\n|---|---|---|---|\n")[2].partition("\n\n")[0]
+    rows = [[cell.split()[0] for cell in row.strip("|").split("|")] for row in table.splitlines()]
+    assert [own for own, *_ in rows] == ["none", "partial", "full"]
+    assert [STATE[word] for _, *states in rows for word in states] == EDGE_OF_FACES
 
 
 @pytest.mark.parametrize("own", range(len(SHAPE)))

@@ -3,6 +3,7 @@
 import ast
 import json
 from pathlib import Path
+from queue import Queue
 
 import pytest
 from coverage import CoverageData
@@ -72,6 +73,45 @@ def test_a_break_is_tried_on_the_tests_that_execute_its_line_fastest_first(
     assert chosen["x + 1"] == ["fast"]  # the other one would be too long
     assert chosen["x < LIMIT"] == chosen["3"] == ["shared::one", "shared::two"]
     assert executed.tests_of(breaks.Break(file, source.index("def g"), source.index("def g"), "")) == ["near"]
+
+
+@pytest.mark.parametrize(
+    "after, result, failed",
+    [
+        ("NAME, LIMIT = 'there', 1", "survived", ["test_a.py::there"]),
+        ("NAME, LIMIT = 'gone', 1", "survived", ["test_a.py::there"]),
+        ("NAME, LIMIT = 'gone', 2", "noticed", ["test_a.py::test_limit"]),
+    ],
+)
+def test_a_break_that_only_renames_a_test_is_not_noticed(
+    after: str, result: str, failed: list[str], tmp_path: Path
+) -> None:
+    before = "NAME, LIMIT = 'there', 1"
+    (tmp_path / "pytest.ini").write_text("[pytest]\npython_functions = there gone test_*\n")
+    (tmp_path / "a.py").write_text(before)
+    (tmp_path / "test_a.py").write_text(
+        "import a\ndef test_limit(): assert a.LIMIT == 1\ndef test_odd(): assert 0\nglobals()[a.NAME] = lambda: None"
+    )
+    trees = Queue[Path]()
+    trees.put(tmp_path)
+    sound = {"test_a.py::test_odd": False}
+    broken = breaks.Break("a.py", 0, len(before), after)
+    found = breaks.try_out(broken, lambda _: ["test_a.py::there"], trees, sound)
+    assert found[:2] == (result, failed)
+    assert (trees.get(block=False) / "a.py").read_text() == before
+
+
+def test_a_worktree_is_given_back_whole_after_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(breaks, "run_tests", interrupt)
+    (tmp_path / "a.py").write_text("LIMIT = 1")
+    trees = Queue[Path]()
+    trees.put(tmp_path)
+    with pytest.raises(KeyboardInterrupt):
+        breaks.try_out(breaks.Break("a.py", 8, 9, "2"), lambda _: [], trees, {})
+    assert (trees.get(block=False) / "a.py").read_text() == "LIMIT = 1"
 
 
 def test_a_break_is_tried_on_the_tests_of_its_module() -> None:

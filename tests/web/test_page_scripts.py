@@ -96,15 +96,21 @@ process.exit();
 """
 
 
-def test_what_could_not_be_saved_is_tried_again_until_it_is(tmp_path: Path) -> None:
+def printed(folder: Path, script: str, program: str) -> Any:
+    """What a program prints as JSON that imports a script of the page from beside it."""
     if shutil.which("node") is None:
         pytest.skip("there is no Node.js")
-    (tmp_path / "storage.mjs").write_text((ROOT / "ninja_game/web/page/storage.js").read_text("utf-8"), "utf-8")
-    (tmp_path / "try.mjs").write_text(STORAGE, "utf-8")
-    done = subprocess.run(["node", "try.mjs"], cwd=tmp_path, check=False, capture_output=True, text=True, timeout=60)
+    text = (ROOT / "ninja_game/web/page" / f"{script}.js").read_text("utf-8")
+    (folder / f"{script}.mjs").write_text(text, "utf-8")
+    (folder / "try.mjs").write_text(program, "utf-8")
+    done = subprocess.run(["node", "try.mjs"], cwd=folder, check=False, capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_what_could_not_be_saved_is_tried_again_until_it_is(tmp_path: Path) -> None:
     failed = "Not saved in this browser: no room. It is tried again."
-    assert json.loads(done.stdout) == [
+    assert printed(tmp_path, "storage", STORAGE) == [
         [1, True, ""],
         [0, True, failed],
         [0, True, ""],
@@ -117,3 +123,45 @@ def test_what_could_not_be_saved_is_tried_again_until_it_is(tmp_path: Path) -> N
         [1, True, ""],
         [0, False, ""],
     ]
+
+
+PAINTER = """
+const maps = [];
+globalThis.Map = class extends Map { constructor() { super(); maps.push(this); } };
+const { Painter } = await import("./painter.mjs");
+const styles = [];
+const context = { save() {}, clearRect() {}, fillRect() { styles.push(this.fillStyle); } };
+const painter = new Painter({ getContext: () => context });
+const [CANVAS, FILL] = [2, 7];
+painter.paint([CANVAS, 1, 99, 99, 1]);
+let most = 0;
+for (let number = 0; number < 20000; number++) {
+  painter.paint([FILL, number * 256 + 255, 0, 0, 1, 1]);
+  most = Math.max(most, ...maps.map((map) => map.size));
+}
+console.log(JSON.stringify([most, styles.length, styles[0x0102], styles.at(-1)]));
+"""
+
+
+def test_the_painter_keeps_the_texts_of_some_colours_only(tmp_path: Path) -> None:
+    assert printed(tmp_path, "painter", PAINTER) == [4096, 20000, "rgb(0,1,2)", "rgb(0,78,31)"]
+
+
+def test_the_classes_of_the_page_declare_their_fields() -> None:
+    """Outside of any method, or in the constructor."""
+    hidden = {}
+    for path in (ROOT / "ninja_game" / "web").rglob("*.js"):
+        classes = re.findall(
+            r"^(?:export )?class (\w+) \{\n(.*?)^\}", path.read_text("utf-8"), re.MULTILINE | re.DOTALL
+        )
+        for name, body in classes:
+            made = re.search(r"^  constructor\(.*?^  \}", body, re.MULTILINE | re.DOTALL)
+            known = {*re.findall(r"^  (\w+)(?: = .*)?;", body, re.MULTILINE)}
+            known |= {*re.findall(r"\bthis\.(\w+) = ", made[0] if made else "")}
+            assigned = {*re.findall(r"\bthis\.(\w+) = ", body)}
+            assigned |= {
+                field for names in re.findall(r"assign\(this, \{ ([\w, ]+) \}", body) for field in names.split(", ")
+            }
+            hidden[name] = assigned - known
+    assert len(hidden) > 7
+    assert not {name: fields for name, fields in hidden.items() if fields}

@@ -207,7 +207,7 @@ def include_reader(file: str) -> Include | None:
     if not has_folder(file):
         return None
 
-    texts: dict[str, str] = {}
+    sizes: dict[str, int] = {}
 
     def include(name: str) -> tuple[str, str]:
         included = read_included(file, name)
@@ -217,8 +217,9 @@ def include_reader(file: str) -> Include | None:
         if included.text is None:
             hint = included.problem or "no file of this name is there"
             raise ReplayError("a file that cannot be included", found=repr(name[:40]), hint=hint)
-        texts[included.path] = included.text
-        if sum(map(len, texts.values())) > MAX_BYTES:
+        if included.path not in sizes:
+            sizes[included.path] = len(included.text.encode("utf-8", "replace"))
+        if sum(sizes.values()) > MAX_BYTES:
             raise ReplayError("too much included", found=repr(name[:40]), expected=f"{MAX_BYTES >> 20} MiB in all")
         return included.path, included.text
 

@@ -50,7 +50,7 @@ class _Ranks(NamedTuple):
 
     leaderboard: Leaderboard
     rows: list[Ranked]
-    is_far: list[Ranked]
+    far: list[Ranked]
     waiting: list[Ranked]
 
 
@@ -193,7 +193,7 @@ class LevelPages:
         contents, leaders = list[Content](), dict[Leaderboard, Markup]()
         for number, group in enumerate(merged.values(), 1):
             contents.append(self._table(group, marks, anchor := f"ranks-{number}"))
-            contents.append(self._note_on("More than twice as slow", [row for ranks in group for row in ranks.is_far]))
+            contents.append(self._note_on("More than twice as slow", [row for ranks in group for row in ranks.far]))
             contents.append(self._note_on("Better, and waiting", [row for ranks in group for row in ranks.waiting]))
             leaders |= {ranks.leaderboard: self._leader(ranks, anchor) for ranks in group}
         waits = self.parts.waiting_link(self.ranking.by_level[entry.digest])

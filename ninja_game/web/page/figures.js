@@ -24,6 +24,8 @@ async function start() {
 }
 
 class Live {
+  state; // of the figure, as its numbers and controls show it
+
   constructor(place, { host, figures }) {
     this.host = host;
     const image = place.querySelector("img");

@@ -4,6 +4,12 @@ import { Painter } from "./painter.js";
 import { Sounds } from "./sound.js";
 
 class Host {
+  memory; // Pyodide's
+  files;
+  width; // of the canvas, px of the screen, of which ratio make one of the page
+  height;
+  ratio;
+
   constructor(canvas) {
     this.canvas = canvas;
     this.painter = new Painter(canvas);

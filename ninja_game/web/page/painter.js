@@ -20,6 +20,7 @@ const LIMB = 17; // colour, count of points, x, y, radius, ...: the same, of a w
 const SCREEN = 1;
 const GRAIN = 32; // sizes of canvases are multiples of it, so that freed ones fit again
 const MAX_KEPT = 400; // freed canvases
+const MAX_COLOURS = 4096; // colours whose text is kept: what fades has ever new ones
 
 const css = new Map();
 
@@ -28,6 +29,7 @@ function colourOf(number) {
   if (text === undefined) {
     const [r, g, b, a] = [number / 16777216, number / 65536, number / 256, number].map((value) => Math.floor(value) & 255);
     text = a === 255 ? `rgb(${r},${g},${b})` : `rgba(${r},${g},${b},${a / 255})`;
+    if (css.size >= MAX_COLOURS) css.clear();
     css.set(number, text);
   }
   return text;

@@ -23,6 +23,8 @@ function fileButton(label, accept, action) {
 }
 
 export class Panel {
+  results; // what a verification has shown so far
+
   constructor(page) {
     this.page = page;
     opener.onclick = () => this.open();

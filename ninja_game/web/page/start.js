@@ -16,7 +16,22 @@ const canvas = document.getElementById("stage");
 const game = document.getElementById("game");
 
 class Page {
+  taken; // ends the game when another tab takes it over
+  python; // what loading gives: Python, whether it came out of the browser's memory, the program's turns
+  fromMemory;
+  boot;
+  services; // what the page asks of the game
+  folder; // the player's
+  host;
+  touch;
+  panel;
   keys = {}; // that touch holds down, by the actions of its buttons
+  state; // of the game, as its last look showed it
+  looked; // when that was, ms
+  paused;
+  stopped; // for good: nothing is written any more
+  still; // the timer that hides a pointer at rest
+  kept; // a promise: the next visit's files are put aside
 
   async start() {
     this.taken = () => {

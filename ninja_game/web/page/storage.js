@@ -5,6 +5,9 @@ const SLOW = 1000; // ms for which a slow disk may hold the game up
 const RETRY = 3000; // ms after a failed write; less than a notice of it is shown
 
 export class PlayerFolder {
+  seen; // the state that was read or written last
+  exports; // names of the files that were there or are downloaded
+
   constructor(fs) {
     this.fs = fs;
     this.lasting = true;

@@ -97,5 +97,5 @@ def test_what_was_prepared_is_there_at_once(at: MenuDriver) -> None:
 def test_while_another_process_compiles_the_tas_editor_opens_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(opening, "compiled_available", lambda: True)
     monkeypatch.setattr(opening, "has_compiled_twin", lambda _: False)
-    monkeypatch.setattr(opening, "prefers_plain", lambda: True)
+    monkeypatch.setattr(opening, "begins_on_plain", lambda *_: True)
     assert is_prepared()
