@@ -187,7 +187,7 @@ def test_what_changed_is_marked(desk: Desk) -> None:
     [entry] = [each.level for each in screen.shelves.cells if each.level and each.level.title == "Empty"]
     assert screen.status.state(entry) == "no run yet"
     no_ninja = [problem for problem in desk.problems() if "there is no ninja" in problem.text]
-    assert [(problem.text[:5], problem.accept) for problem in no_ninja] == [("Mind ", None), ("Empty", None)]
+    assert [(problem.text[:5], problem.accept) for problem in no_ninja] == [("Stone", None), ("Empty", None)]
 
 
 def test_each_of_two_problems_of_a_kind_leads_to_its_own_place(desk: Desk) -> None:
