@@ -130,7 +130,7 @@ class RunCommands(DocumentCommands):
         def on_accept(texts: list[str]) -> None:
             text, *player = texts
             if player and player[0].strip():
-                self.app.know_author("", player[0])
+                self.app.remember_author("", player[0])
                 self.session.name_player(self.app.settings.name)
             path = folder / os.path.expanduser(text.strip() or name)  # noqa: PTH111 - fails on no name
             if os.path.isdir(path.parent):  # noqa: PTH112 - likewise

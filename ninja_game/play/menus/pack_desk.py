@@ -136,7 +136,7 @@ class PackDesk(ThumbnailScreen):
         ``name``: for undo; "": it cannot be undone.
         """
         done = False
-        with self.app.noting():
+        with self.app.errors_as_notices():
             if name and not self.packer.steps.run(name, action):
                 return False
             if not name:
