@@ -49,12 +49,12 @@ NOTICE = 12.5  # size of the letters of a notice
 _IN_BORDER = 10.0  # the same in the border below a level
 NOTICE_WIDTH = 764.0  # longest line of a notice, px
 NOTICE_LINES = 5  # most lines of a notice
-NOTICE_MS = 4000
+NOTICE_MS = 4000  # how long it is shown
+WARNING_MS = 12_000  # how long a warning about the start of the game is shown
+
 SWITCH_S = 0.0005
 """The longest that a thread of Python waits for another one, s: what works in the background, as a compiler, must not
 make the window slow."""
-WARNING_MS = 12_000  # how long a warning about the start of the game is shown
-
 
 TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
 
