@@ -142,7 +142,7 @@ def silent_fields(sources: Sources) -> Iterator[str]:
 
 
 def hides_a_decision(node: ast.AST) -> bool:
-    """Whether an expression has a decision where a reader does not look for one."""
+    """Whether an expression or a statement of one has a decision where a reader does not look for one."""
     if isinstance(node, ast.IfExp):
         last = node.orelse
         parts = [node.test, node.body]
@@ -156,7 +156,7 @@ def hides_a_decision(node: ast.AST) -> bool:
         texts += [side for side in sides if isinstance(side, ast.JoinedStr | ast.List)]
         called = [ast.unparse(side.func) for side in sides if isinstance(side, ast.Call)]
         return bool(texts) and ("bool" in called or any(isinstance(side, ast.Compare | ast.BoolOp) for side in sides))
-    return False
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.IfExp)
 
 
 def mixes_ways(node: ast.Assign) -> bool:
@@ -169,10 +169,10 @@ def mixes_ways(node: ast.Assign) -> bool:
 
 
 def hidden_decisions(sources: Sources) -> Iterator[str]:
-    """No f-string in an f-string, no text times a truth value, no conditional in another but as its ``else``, once."""
+    """No f-string in another, no text times a truth value, no conditional as statement, or in one but its ``else``."""
     for file, text in sources.items():
         for node in ast.walk(parsed(text)):
-            if isinstance(node, ast.expr) and hides_a_decision(node):
+            if isinstance(node, ast.expr | ast.Expr) and hides_a_decision(node):
                 yield f"{file}:{node.lineno}: a decision is hidden in this expression"
             elif isinstance(node, ast.Assign) and mixes_ways(node):
                 yield f"{file}:{node.lineno}: three names get values in unlike ways: give them a line each"

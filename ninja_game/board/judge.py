@@ -104,11 +104,11 @@ def judge(
         keeping.decide(dated, {run.file for run in dated} | {item.file for item in invalid})
     owners = ledger.owners
     possible, impossible = _parted(_possible(run, ledger, keeping.unknown) for run in dated)
-    in_order = sorted(_first_again(possible, owners), key=lambda run: run.order)
+    in_order = sorted(_with_first_dates(possible, owners), key=lambda run: run.order)
     credited, moderated = _parted(run.decided_by(ledger.decision(run)) for run in _of_players(in_order, players))
     unique, copies = without_copies(credited, memo, owners)
     recorded = [_with_row(run, ledger, owners.get((run.level, run.way), {})) for run in unique]
-    counted = tuple(_of_senders(recorded, ledger, keeping.confirm))
+    counted = tuple(_with_untrusted_marks(recorded, ledger, keeping.confirm))
     named = (_named(item, players) for item in invalid + impossible)
     others = sorted([*named, *moderated, *copies], key=lambda item: (item.file, item.record))
     rejected, repeated = (tuple(item for item in others if (item.kind == OWN) is own) for own in (False, True))
@@ -138,7 +138,7 @@ def _possible(run: Run, ledger: Ledger, unknown: str) -> Run | RejectedRun:
     return run if not run.kind or (decision and decision.what != PLAYED) else run.rejected(run.kind, run.why)
 
 
-def _first_again(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
+def _with_first_dates(runs: Sequence[Run], owners: RunRows) -> Iterator[Run]:
     """The runs with their first dates: a run that was withdrawn, or is in another file now, keeps its player's date."""
     ways = {(run.level, run.way, run.added) for run in runs}
     for run in runs:
@@ -291,7 +291,7 @@ def _with_row(run: Run, ledger: Ledger, owner: Mapping[str, Any]) -> Run:
     return run
 
 
-def _of_senders(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -> Iterator[Run]:
+def _with_untrusted_marks(runs: Sequence[Run], ledger: Ledger, confirm: Collection[str]) -> Iterator[Run]:
     """The runs with a mark on those from another folder than their player's own, until one from there is confirmed.
 
     A folder is a player's own if most of its runs are by that player. A marked run waits, unless the ledger has it

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from enum import StrEnum, auto
 
-from ninja_game.editor import stamp as stamps
+from ninja_game.editor import shapes, stamp as stamps
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.palette import (
@@ -122,7 +122,7 @@ class Brush:
         after = stamps.with_stamp(draft, stamp, images)
         if not (slopes and set(stamp.tiles.values()) <= {EMPTY, FULL}):
             return after
-        sloped = stamps.sloped(draft, after)
+        sloped = shapes.sloped(draft, after)
         all_ends = [*ends, *(tuple(map(motion.cell, end)) for motion in images for end in ends)]
         pointed = [end for end in all_ends if FULL not in map(sloped.tile, end)]
         return sloped.with_tiles({cell: after.tile(cell) for end in pointed for cell in end})
@@ -136,13 +136,13 @@ class Brush:
 
     def with_stroke(self, draft: Draft, start: Cell, end: Cell, tile: int, *, slopes: bool) -> Draft:
         """The draft with a straight part of a line that is drawn by hand."""
-        cells = stamps.covered(Tool.LINE, start, end, 0.0)
-        cells += stamps.stair_cells(cells) if self.slopes and tile in (EMPTY, FULL) else []
+        cells = shapes.covered(Tool.LINE, start, end, 0.0)
+        cells += shapes.stair_cells(cells) if self.slopes and tile in (EMPTY, FULL) else []
         return self.with_stamp(draft, stamps.Stamp(self._lined(cells, tile, draft)), slopes=slopes)
 
     def _lined(self, cells: list[Cell], tile: int, draft: Draft) -> Tiles:
         """The tiles of a line; with automatic slopes full ones fill its notches, those on the solid side of slopes."""
-        notches = stamps.behind(cells, tile) if self.slopes else []
+        notches = shapes.behind(cells, tile) if self.slopes else []
         return {cell: FULL for cell in notches if draft.tile(cell) == EMPTY} | dict.fromkeys(cells, tile)
 
     def with_shape(
@@ -157,7 +157,7 @@ class Brush:
             return self.with_stamp(draft, stamps.Stamp(tiles), slopes=slopes, ends=ends)
         corners = snapped(*start, self.snap), snapped(*end, self.snap)
         if shape in CURVES:
-            places, snap = stamps.spaced_places(stamps.curve(shape, *corners, bend), self.spacing), "px"
+            places, snap = shapes.spaced_places(shapes.curve(shape, *corners, bend), self.spacing), "px"
         else:
             step, snap = max(SNAPS[self.snap], _MIN_STEP), self.snap
             (x, right), (y, bottom) = (sorted(along) for along in zip(*corners, strict=True))
@@ -167,20 +167,20 @@ class Brush:
 
     def _tiles_of(self, draft: Draft, shape: str, start: Cell, end: Cell, bend: float) -> tuple[Tiles, Ends]:
         """The tiles of a shape, and the ends of a line two cells thick."""
-        cells = stamps.covered(shape, start, end, bend)
+        cells = shapes.covered(shape, start, end, bend)
         sloped = dict[Cell, int]()  # the shape from full tiles and slopes, where there is such a form
         if self.slopes and self.tile == FULL and not bend and shape == Tool.LINE:
-            sloped = stamps.ramp(start, end)
+            sloped = shapes.ramp(start, end)
         elif self.slopes and self.tile == FULL and shape == Tool.ELLIPSE:
             column, row, *size = stamps.area_between(start, end)
-            sloped = {(column + i, row + j): tile for (i, j), tile in stamps.rounded(*size).items()}
+            sloped = {(column + i, row + j): tile for (i, j), tile in shapes.rounded(*size).items()}
         if sloped:
             # Slopes of the shape remove no tiles.
             return {cell: tile for cell, tile in sloped.items() if tile == FULL or not draft.tile(cell)}, ()
         if shape != Tool.LINE:
             return dict.fromkeys(cells, self.tile), ()
         ramp = self.slopes and self.tile in (EMPTY, FULL)
-        band = stamps.ramp_cells(cells) if ramp else cells
+        band = shapes.ramp_cells(cells) if ramp else cells
         thick = self.tile == FULL and len(band) > len(cells)
         ends = ((band[0], band[len(cells)]), (cells[-1], band[-1])) if thick else ()
         return self._lined(band, self.tile, draft), ends

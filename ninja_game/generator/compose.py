@@ -57,10 +57,11 @@ def place_route(board: RockBoard, tiles: dict[Cell, str], rng: Random, *, far: f
     scene = Scene(board, tiles, start)
     # Sometimes the ninja must jump to reach a switch.
     places = [f"{c},{r - 1 if rng.random() < 0.3 else r}" for c, r in (switch, *keys)]
-    scene.key = [object_of(f"ninja {start[0]},{start[1]}"), object_of(f"exit {exit_[0]},{exit_[1]} switch {places[0]}")]
+    needed = f"ninja {start[0]},{start[1]}", f"exit {exit_[0]},{exit_[1]} switch {places[0]}"
+    scene.needed = [object_of(record) for record in needed]
     for number, place in enumerate(places[1:]):
         for c, r in board.gate[number * board.doors : (number + 1) * board.doors]:
-            scene.key.append(object_of(f"locked door {c},{r} {board.side} switch {place}"))
+            scene.needed.append(object_of(f"locked door {c},{r} {board.side} switch {place}"))
     return scene
 
 

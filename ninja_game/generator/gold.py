@@ -14,7 +14,7 @@ from ninja_game.sim.rules import CELL
 MIN_PIECES = 26  # least pieces in a level
 MAX_PIECES = 38  # most pieces; a last group may exceed this
 APART = 12.0  # px between two pieces
-FROM_KEY = 26.0  # px from ninja, exit and switches
+_FROM_NEEDED = 26.0  # px from ninja, exit and switches
 BETWEEN = 3.5 * CELL  # px between the middles of two groups
 _OFF = 14.0  # px from the rock
 
@@ -100,11 +100,13 @@ def dangers(scene: Scene, rng: Random) -> Iterator[list[Point]]:
         cell
         for cell in sorted(scene.reachable)
         if all((cell[0] + i, cell[1] + j) in scene.reachable for i in reach for j in reach)
-        and scene.is_clear(middle_of(cell), key=60.0, other=30.0)
+        and scene.is_clear(middle_of(cell), needed=60.0, other=30.0)
     ]
     rng.shuffle(air)
     for x, y in (
-        spot for spot in scene.board.danger_places if scene.is_clear((CELL * spot[0], CELL * spot[1]), key=9, other=30)
+        spot
+        for spot in scene.board.danger_places
+        if scene.is_clear((CELL * spot[0], CELL * spot[1]), needed=9, other=30)
     ):
         yield from (form(CELL * x, CELL * y, far) for far in (size, 28, 22))
     for x, y in sorted(map(middle_of, air), key=lambda at: scene.sees(at, start)):
@@ -195,4 +197,4 @@ def lay_trails(scene: Scene, run: Sequence[Point], rng: Random) -> None:
 
 
 def _fits(scene: Scene, point: Point) -> bool:
-    return scene.is_clear(point, key=FROM_KEY, other=APART)
+    return scene.is_clear(point, needed=_FROM_NEEDED, other=APART)

@@ -147,7 +147,7 @@ def _if_fits(scene: Scene, spec: ObjectSpec, apart: float) -> ObjectSpec | None:
     start = middle_of(scene.start)
     point = (spec.values[0], spec.values[1])
     enemies = [other for other in scene.objects if other.kind in ENEMIES]
-    clear = scene.is_clear(point, key=60.0, other=14.0) and dist(point, start) >= SAFE_PX
+    clear = scene.is_clear(point, needed=60.0, other=14.0) and dist(point, start) >= SAFE_PX
     alone = all(dist(point, other.values[:2]) >= apart for other in enemies)
     seen = spec.kind in _SHOOTERS and scene.sees(point, start)
     same_floor = spec.kind == kinds.FLOOR_GUARD and int(point[1] // CELL) == scene.start[1]
@@ -217,7 +217,7 @@ def _surface_lines(scene: Scene, rng: Random, *, floors: bool = False) -> list[l
 def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
     """Make mines at the points that have room."""
     start = middle_of(scene.start)
-    fit = [p for p in points if scene.is_clear(p, key=44.0, other=14.0) and dist(p, start) >= SAFE_PX / 2]
+    fit = [p for p in points if scene.is_clear(p, needed=44.0, other=14.0) and dist(p, start) >= SAFE_PX / 2]
     return [object_of(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 
 
@@ -327,5 +327,5 @@ def place_fixtures(scene: Scene, rng: Random) -> None:
     for spec in (spec for source in sources for spec in source(scene, rng)):
         # A pad lies on the edge of its cell.
         point = (spec.values[0], spec.values[1] - (PAD_RADIUS if spec.kind == kinds.LAUNCH_PAD else 0.0))
-        if len(scene.fixtures) < MAX_FIXTURES and scene.is_clear(point, key=40.0, other=12.0):
+        if len(scene.fixtures) < MAX_FIXTURES and scene.is_clear(point, needed=40.0, other=12.0):
             scene.fixtures.append(spec)

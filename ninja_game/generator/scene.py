@@ -227,8 +227,8 @@ def object_of(line: str) -> ObjectSpec:
 class Scene:
     """A level in the making.
 
-    ``key``: objects that every route needs (ninja, exit, doors). ``fixtures``: harmless objects. ``hazards``: groups of
-    objects that belong together: an enemy, or a line of mines.
+    ``needed``: objects that every route needs (ninja, exit, doors). ``fixtures``: harmless objects. ``hazards``: groups
+    of objects that belong together: an enemy, or a line of mines.
     """
 
     def __init__(self, board: RockBoard, tiles: dict[Cell, str], start: Cell) -> None:
@@ -237,7 +237,7 @@ class Scene:
         self.start = start
         self.empty = {(c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)} - tiles.keys()
         self.reachable = steps_from(start, self.empty)
-        self.key: list[ObjectSpec] = []
+        self.needed: list[ObjectSpec] = []
         self.fixtures: list[ObjectSpec] = []
         self.gold: list[ObjectSpec] = []
         self.gold_middles: list[Point] = []  #: the middles of groups of gold
@@ -246,7 +246,7 @@ class Scene:
 
     @property
     def objects(self) -> list[ObjectSpec]:
-        return [*self.key, *self.fixtures, *self.gold, *(spec for group in self.hazards for spec in group)]
+        return [*self.needed, *self.fixtures, *self.gold, *(spec for group in self.hazards for spec in group)]
 
     @property
     def level(self) -> Level:
@@ -312,17 +312,17 @@ class Scene:
 
     def wanted(self) -> list[Point]:
         """The places that a player wants or has to touch, px: groups of gold (middle), exit, doors, switches."""
-        return [*self.gold_middles, *(point for spec in self.key[1:] for point in object_places(spec))]
+        return [*self.gold_middles, *(point for spec in self.needed[1:] for point in object_places(spec))]
 
     def mirrored_points(self, points: list[Point]) -> list[Point]:
         """Mirror the points at the middle column."""
         return [(2 * middle_of((MIDDLE_COLUMN, 0))[0] - x, y) for x, y in points]
 
-    def is_clear(self, point: Point, *, key: float, other: float) -> bool:
-        """Whether a point is in a cell in reach, ``key`` px from key objects and ``other`` px from others."""
+    def is_clear(self, point: Point, *, needed: float, other: float) -> bool:
+        """Whether a point is in a cell in reach, ``needed`` px from needed objects and ``other`` px from others."""
         is_reachable = cell_of(*point) in self.reachable
         return is_reachable and all(
-            dist(point, place) >= (key if spec.kind in _KEY else max(other, _CLEARANCE.get(spec.kind, 0.0)))
+            dist(point, place) >= (needed if spec.kind in _NEEDED else max(other, _CLEARANCE.get(spec.kind, 0.0)))
             for spec in self.objects
             for place in object_places(spec)
         )
@@ -334,7 +334,7 @@ class Scene:
         return all(cell_of(*point) not in self.tiles for point in line)
 
 
-_KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
+_NEEDED = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
 _CLEARANCE = {kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0, kinds.BOUNCE_BLOCK: 22.0}
 """px around fixtures that stay free."""
 

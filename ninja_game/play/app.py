@@ -20,7 +20,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.boss import BossScreen
-from ninja_game.play.screen import Aside, BaseScreen, ScreenStack
+from ninja_game.play.screen import BackgroundTask, BaseScreen, ScreenStack
 from ninja_game.play.window import Window, Wipe, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import FASTEST_TICK_GAIN
@@ -49,12 +49,12 @@ NOTICE = 12.5  # size of the letters of a notice
 _IN_BORDER = 10.0  # the same in the border below a level
 NOTICE_WIDTH = 764.0  # longest line of a notice, px
 NOTICE_LINES = 5  # most lines of a notice
-NOTICE_MS = 4000
+NOTICE_MS = 4000  # how long it is shown
+WARNING_MS = 12_000  # how long a warning about the start of the game is shown
+
 SWITCH_S = 0.0005
 """The longest that a thread of Python waits for another one, s: what works in the background, as a compiler, must not
 make the window slow."""
-WARNING_MS = 12_000  # how long a warning about the start of the game is shown
-
 
 TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
 
@@ -78,13 +78,13 @@ class App:
         self.player = player  #: its settings are changed by ``change_settings``
         self.controls = controls  #: keys to actions
         self.audio_output = audio_output
-        self._hand_on(self.settings)
+        self._apply_settings(self.settings)
         self.overclock = 0  #: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1)
         #: Opens a run in the TAS editor, at a tick, with others to compare; None where there is none, as in a page
         self.tas_editor = tas_editor
         self.stack = ScreenStack()
         self.solver = Solver()  #: shared by all editors; the screen of packs shows stopped searches
-        self.aside: list[Aside] = []
+        self.background_tasks: list[BackgroundTask] = []
         self.running = True
         self.frame_ms = 0.0
         self.mood = Mood()
@@ -116,7 +116,7 @@ class App:
         before = self.settings
         message = self.player.change_settings(before.changed(**values))
         after = self.settings
-        self._hand_on(after)
+        self._apply_settings(after)
         self.window.set_fullscreen(wanted=after.fullscreen)
         look = attrgetter("palette", "fullscreen", "text_size")
         if look(after) != look(before):
@@ -125,14 +125,14 @@ class App:
         if message:
             self.notify(message)
 
-    def _hand_on(self, settings: Settings) -> None:
+    def _apply_settings(self, settings: Settings) -> None:
         """Apply the settings to the controls and the sound."""
         self.controls.bind(settings.keys, settings.pad)
         self.controls.pads.dead_zone = settings.dead_zone
         self.controls.tap_to_run = settings.tap_to_run
         self.audio_output.set_volumes(*settings.volumes)
 
-    def know_author(self, before: str, author: str) -> None:
+    def remember_author(self, before: str, author: str) -> None:
         """Remember an author's name that was typed as the player's, if none is set yet; later forms begin with it."""
         if author != before and not self.settings.name:
             self.change_settings(name=author.strip()[:40])
@@ -144,7 +144,7 @@ class App:
         self.stack.redraw_all()
 
     @contextmanager
-    def noting(self, what: str = "") -> Iterator[None]:
+    def errors_as_notices(self, what: str = "") -> Iterator[None]:
         """Show a notice instead of an error of files or of the program within; ``what`` stands before its reason."""
         try:
             yield
@@ -226,7 +226,7 @@ class App:
                 if not simulated:
                     clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
         finally:
-            for task in self.aside:
+            for task in self.background_tasks:
                 task.end()
             self.stack.clear()
             if self.window.was_resized:
@@ -248,7 +248,7 @@ class App:
                 return
         if self.wipe.update(real_ms):
             self.stack.redraw_all()
-        for task in self.aside:
+        for task in self.background_tasks:
             task.update()
         for screen in self.stack.running():
             screen.update(real_ms)

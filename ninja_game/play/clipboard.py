@@ -37,7 +37,7 @@ def pasted_text() -> str:
 
 def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
     """Put a link into the clipboard: the address of the player's page with the text that ``make`` gives."""
-    with app.noting("No link: "):
+    with app.errors_as_notices("No link: "):
         link = app.settings.site + make()
         copy_text(app, link, title=title, suffix=".link.txt", notice="Link copied")
 

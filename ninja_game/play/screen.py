@@ -83,7 +83,7 @@ class BaseScreen:
         raise NotImplementedError
 
 
-class Aside:
+class BackgroundTask:
     """Work that continues whatever screen is on top."""
 
     def update(self) -> None:

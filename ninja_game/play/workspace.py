@@ -427,7 +427,7 @@ class DocumentCommands:
             self.app.push(Menu(self.app, f"Discard {name}?", [keep, ("Discard", discard, "It is lost")]))
 
         def try_to_recover() -> None:
-            with self.app.noting():
+            with self.app.errors_as_notices():
                 recover()
 
         rows: list[MenuRow] = [("Recover", try_to_recover, about), keep, ("Discard...", ask, "")]

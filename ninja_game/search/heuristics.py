@@ -17,13 +17,15 @@ from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.kinds import EXIT
-from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, STRIDE
+from ninja_game.sim.rules import CELL, EXIT_RADIUS, RADIUS, STRIDE
 from ninja_game.sim.schema.declare import fast, kernel
 from ninja_game.sim.schema.world_fields import World
 from ninja_game.sim.states import AUTOMATIC, LOCKED
 from ninja_game.sim.traces import is_open
 
-_SPACING = 6.0  # Px between points. Cell sides (multiples of 24 px) lie on points: blocking these points closes a door.
+_SPACING = 6.0  # px between points
+_PER_CELL = round(CELL / _SPACING)
+"""Points along a cell side. All sides lie on points: a door is closed if those on it are blocked."""
 ACROSS = 133
 _DOWN = 101
 POINTS = ACROSS * _DOWN
@@ -106,8 +108,8 @@ def lower_field(costs: Costs, blocked: Blocks, field: DistanceField, queue: NDAr
 @fast
 def point_at(x: float, y: float) -> int:
     """Index of the point nearest to a place; a place outside the world counts as at its border."""
-    i = int((x + 3.0) / _SPACING) if x > 0.0 else 0
-    j = int((y + 3.0) / _SPACING) if y > 0.0 else 0
+    i = int((x + _SPACING / 2) / _SPACING) if x > 0.0 else 0
+    j = int((y + _SPACING / 2) / _SPACING) if y > 0.0 else 0
     i = min(i, ACROSS - 1)
     j = min(j, _DOWN - 1)
     return j * ACROSS + i
@@ -339,10 +341,10 @@ def _bars(edge: int) -> tuple[int, ...]:
     cell, side = divmod(edge, 4)
     if cell == 0:
         return ()
-    column, row = cell % STRIDE - 1, cell // STRIDE - 1
+    left, top = (cell % STRIDE - 1) * _PER_CELL, (cell // STRIDE - 1) * _PER_CELL
     if side == 0:
-        return tuple((row * 4 + k) * ACROSS + (column + 1) * 4 for k in range(5))
-    return tuple((row + 1) * 4 * ACROSS + column * 4 + k for k in range(5))
+        return tuple((top + k) * ACROSS + left + _PER_CELL for k in range(_PER_CELL + 1))
+    return tuple((top + _PER_CELL) * ACROSS + left + k for k in range(_PER_CELL + 1))
 
 
 @fast

@@ -95,7 +95,6 @@ class TasSession:
         """What the file keeps beside the run: the branches, and the watched values."""
         return list(self.branches.all), self.branches.watched
 
-    @property
     def tail_behind(self) -> str:
         """The end, "exit" or "dead", if keys or names of ticks follow it; else "".
 

@@ -245,13 +245,11 @@ class Timeline:
         ended = np.flatnonzero(outcomes)
         return (int(ended[0]), OUTCOME_NAMES[int(outcomes[ended[0]])]) if len(ended) else (-1, OUTCOME_NAMES[0])
 
-    @property
     def ending(self) -> str:
         """The end in words, for a death with the killer; "" without one."""
         end, outcome = self.end
-        return ending_text(outcome, end, self.death) if end >= 0 else ""
+        return ending_text(outcome, end, self.death()) if end >= 0 else ""
 
-    @property
     def unended_text(self) -> str:
         """A sentence about a run without an end: that it goes on, and which exits' switches it has not touched."""
         world = self.world(self.simulated_until - 1)
@@ -259,7 +257,6 @@ class Timeline:
         shut = ", ".join(str(obj.id) for obj in exits if not getattr(obj, KIND_OF[EXIT].used))
         return f"it goes on, the switch of exit {shut} untouched" if shut else "it goes on"
 
-    @property
     def death(self) -> str:
         """The ninja's killer, in words; "" without a death in the simulated ticks."""
         end, outcome = self.end

@@ -130,7 +130,7 @@ class RunCommands(DocumentCommands):
         def on_accept(texts: list[str]) -> None:
             text, *player = texts
             if player and player[0].strip():
-                self.app.know_author("", player[0])
+                self.app.remember_author("", player[0])
                 self.session.name_player(self.app.settings.name)
             path = folder / os.path.expanduser(text.strip() or name)  # noqa: PTH111 - fails on no name
             if os.path.isdir(path.parent):  # noqa: PTH112 - likewise
@@ -152,7 +152,7 @@ class RunCommands(DocumentCommands):
     def saved_text(self, path: Path) -> str:
         session, behind_exit = self.session, ", without what is behind its exit"
         behind_death = ", with what is behind its end (Ctrl+E removes it)"
-        tail = {"dead": behind_death, "exit": behind_exit}.get(session.tail_behind, "")
+        tail = {"dead": behind_death, "exit": behind_exit}.get(session.tail_behind(), "")
         branches = " and its branches beside it" if branches_path(path).exists() else ""
         replay = session.origin.replay
         nobody = "" if replay.author or replay.co_authors else "; its player is unknown"
@@ -166,7 +166,7 @@ class RunCommands(DocumentCommands):
         return self.session.track.made != NONE and not author
 
     def keep(self) -> None:
-        if self.session.tail_behind == "dead":
+        if self.session.tail_behind() == "dead":
             self.app.notify("Keys are pressed behind the death: take them out first, with Ctrl+E")
             return
         origin, track = self.session.origin, self.session.track

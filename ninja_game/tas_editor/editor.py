@@ -78,7 +78,7 @@ class TasEditor:
         timeline = Timeline(origin.level, track.inputs, body=origin.body, memory=memory)
         timeline.simulate(len(timeline))
         return OtherRun(
-            name, track, timeline.trajectory(), made or Contributions(), timeline.ending or timeline.unended_text
+            name, track, timeline.trajectory(), made or Contributions(), timeline.ending() or timeline.unended_text()
         )
 
     def show_beside(self, run: OtherRun) -> None:

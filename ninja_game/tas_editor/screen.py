@@ -201,7 +201,7 @@ class Head(TasPart):
             saved = f", saved{unsaved_note}" if session.file.path else unsaved_note
         state = session.journal.problem or file + saved
         seconds = f", {seconds_text(end)} s" if end >= 0 else ""
-        words = (session.timeline.ending or "no exit yet") + seconds
+        words = (session.timeline.ending() or "no exit yet") + seconds
         ends = theme.text(surface, words, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
         width = ends.left / theme.canvas.scale - 12 - x
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=width)

@@ -249,7 +249,7 @@ class Hud:
         # The right text grows only into free room.
         half_width = min(_FOOT_WIDTH / 2, theme.lettering.width(left, size))
         width = max(min(_FOOT_WIDTH, theme.lettering.width(right, size)), _FOOT_WIDTH - half_width - gap)
-        rect = theme.text(surface, right, 768, y, size=size, colour=colour, align="right", width=width)
+        rect = theme.text(surface, right, _RIGHT, y, size=size, colour=colour, align="right", width=width)
         width = _FOOT_WIDTH - rect.width / theme.canvas.scale - gap
         return [rect, theme.text(surface, left, 24, y, size=size, colour=colour, width=width)]
 
@@ -260,7 +260,7 @@ class Hud:
     def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
         """The time of the last turn of the loop, in the corner."""
         colour = self.theme.palette.on_tile
-        rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
+        rect = self.theme.text(surface, f"{ms:.1f} ms", _RIGHT, 566, size=8, colour=colour, align="right")
         return rect.inflate(self.theme.canvas.px(12), 2)
 
     def end_panel(self, surface: pygame.Surface, view: HudView, end: EndPanel) -> pygame.Rect:

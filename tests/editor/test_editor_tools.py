@@ -22,8 +22,9 @@ from ninja_game.editor.palette import (
     snapped,
     tile_name,
 )
+from ninja_game.editor.shapes import covered, rounded
 from ninja_game.editor.specs import points, word
-from ninja_game.editor.stamp import Selection, chosen_in, covered, rounded
+from ninja_game.editor.stamp import Selection, chosen_in
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.writer import best_form

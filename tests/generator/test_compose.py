@@ -68,7 +68,7 @@ def test_gold_lies_in_groups_and_no_piece_is_on_another(plan: str) -> None:
 @pytest.mark.parametrize("plan", PLANS)
 def test_most_hazards_guard_something(plan: str) -> None:
     scene = composed(plan, 10)
-    wanted = [*scene.gold_middles, *(place for record in scene.key[1:] for place in object_places(record))]
+    wanted = [*scene.gold_middles, *(place for record in scene.needed[1:] for place in object_places(record))]
     near = [
         min(dist(record.values[:2], point) for point in wanted) < 120 for group in scene.hazards for record in group
     ]

@@ -239,5 +239,5 @@ def test_unknown_palette_is_reported_and_the_game_starts(tmp_path: Path) -> None
 def test_an_author_who_is_typed_is_the_player_where_none_is_set(name: str, before: str, typed: str, known: str) -> None:
     with scripted_app() as (app, _):
         app.change_settings(name=name)
-        app.know_author(before, typed)
+        app.remember_author(before, typed)
         assert app.settings.name == known

@@ -36,17 +36,17 @@ FALL = parse_level_string("0" * 713 + "|5^100,40!11^700,584,700,560")
 @pytest.mark.parametrize("memory", BOTH)
 def test_a_death_is_shown_with_what_killed(memory: str) -> None:
     timeline = Timeline(FALL, bytes([2] * 100), memory=memory)
-    assert (timeline.death, timeline.ending) == ("", ""), "nothing is simulated yet"
+    assert (timeline.death(), timeline.ending()) == ("", ""), "nothing is simulated yet"
     timeline.simulate(300)
     end = timeline.end[0]
-    assert timeline.ending == f"dead in tick {end}: {timeline.death}"
-    speed, over = (float(word) for word in timeline.death.replace(",", "").split()[2::3])
+    assert timeline.ending() == f"dead in tick {end}: {timeline.death()}"
+    speed, over = (float(word) for word in timeline.death().replace(",", "").split()[2::3])
     y = timeline.column("y")
     assert (y[end - 1] - y[end - 2] < speed < y[end - 1] - y[end - 2] + 1, over) == (True, 7.0)
     timeline.set_inputs(bytes(100))
     timeline.simulate(300)
     check(timeline)
-    assert timeline.death.startswith("floor at"), "of the new run"
+    assert timeline.death().startswith("floor at"), "of the new run"
 
 
 def check(timeline: Timeline) -> None:

@@ -55,7 +55,7 @@ def test_what_is_behind_the_exit_is_not_expected_in_the_saved_file(tmp_path: Pat
     state, pipe, rng = Track(tmp_path / "home"), Mock(), Random()
     session = opened_run(tmp_path / "home")
     session.change(session.track.replaced(len(session.track), len(session.track), [0] * 40 + [1]))
-    assert session.tail_behind == "exit"
+    assert session.tail_behind() == "exit"
     with patch.object(rng, "random", lambda: 0.0):
         say_and_save(session, rng, pipe)
     session.close(keep=True)

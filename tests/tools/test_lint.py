@@ -60,10 +60,13 @@ def test_a_field_that_nothing_explains_is_seen() -> None:
     assert not faults(lint.silent_fields, "ninja_game/play/a.py", RECORD.format("heat: int"))
 
 
-@pytest.mark.parametrize("text", ["f'{a + f\"{b}\"}'", '"s" * (n > 1)', "[a] * bool(b)", "(a if b else c) if d else e"])
+@pytest.mark.parametrize(
+    "text",
+    ["f'{a + f\"{b}\"}'", '"s" * (n > 1)', "[a] * bool(b)", "x = (a if b else c) if d else e", "f() if a else g()"],
+)
 def test_a_hidden_decision_is_seen(text: str) -> None:
     assert faults(lint.hidden_decisions, "ninja_game/a.py", text)
-    assert not faults(lint.hidden_decisions, "ninja_game/a.py", "a if b else c if d else e\n'-' * n\n[a] * len(b)")
+    assert not faults(lint.hidden_decisions, "ninja_game/a.py", "x = a if b else c if d else e\n'-' * n\n[a] * len(b)")
 
 
 @pytest.mark.parametrize("text", ["a, b, c = f(x), g(x), h(x)", "a, b, c = x, 1, f(x)", "a, b, c = x, y, x == y"])

@@ -178,7 +178,7 @@ def say_and_save(session: TasSession, rng: Random, pipe: Connection) -> None:
     """Say what the run is; now and then save it, which leaves out what is behind the exit."""
     pipe.send(("edited", digest_of_track(session.track), 0))
     if rng.random() < 0.05:
-        exits = session.tail_behind == "exit"
+        exits = session.tail_behind() == "exit"
         digest = digest_of_track(session.track.up_to(session.timeline.end[0] + 1) if exits else session.track)
         pipe.send(("about", digest, 0))
         session.save(session.file.path or Path(), replacing=True)

@@ -430,7 +430,7 @@ class EditorCommands(DocumentCommands):
         def on_accept(texts: list[str]) -> None:
             tools = self.session.tools
             tools.finish()
-            self.app.know_author(tools.draft.author, texts[1])
+            self.app.remember_author(tools.draft.author, texts[1])
             tools.history.change(replace(tools.draft, **(about | dict(zip(about, texts, strict=True)))))
 
         self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
@@ -497,7 +497,7 @@ class EditorCommands(DocumentCommands):
 
     def _load(self, action: Action) -> None:
         """Load or keep something, and show a notice if its file cannot be read or written."""
-        with self.app.noting():
+        with self.app.errors_as_notices():
             action()
 
     def offer_recovered(self) -> None:

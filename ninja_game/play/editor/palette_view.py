@@ -32,7 +32,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.rules import CELL
 from ninja_game.sim.states import TRAP
 from ninja_game.simulation import Simulation
-from ninja_game.ui.canvas import Canvas
+from ninja_game.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.ui.input.keys import key_label_of
 from ninja_game.ui.theme import PALETTES, Area, Palette, Theme, contains_point, mixed
 from ninja_game.ui.widgets import Widget
@@ -325,7 +325,7 @@ def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) 
 @lru_cache(maxsize=200)
 def object_icon(spec: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
     """An object in the middle of a small picture; a door or an exit without its switch."""
-    canvas = Canvas((round(792 * scale), round(600 * scale)))
+    canvas = Canvas((round(WIDTH * scale), round(HEIGHT * scale)))
     far = with_switch(spec, 700.0, 500.0, "half")
     x, y = points(far)[BODY_PART]
     px, py = canvas.point(x, y)

@@ -79,7 +79,7 @@ class EditorScreen(WorkspaceScreen):
     def enter(self) -> None:
         """The first time, ask about an unsaved level, unless a level was just chosen."""
         super().enter()
-        with self.app.noting():
+        with self.app.errors_as_notices():
             self.session.follow_move()
         self.follow_parts()
         if not self._entered:

@@ -230,7 +230,7 @@ class EditorSession:
 
     def copy_string(self) -> None:
         """Copy the level as an in-game string of N into the clipboard, or into a file where there is none."""
-        with self.app.noting("This level cannot be written as N level code: "):
+        with self.app.errors_as_notices("This level cannot be written as N level code: "):
             text = write_level_string(self.draft.level, exact=True)
             copy_text(self.app, text, title=self.name, suffix=".nlevel")
 

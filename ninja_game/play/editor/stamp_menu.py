@@ -94,12 +94,12 @@ class StampCommands:
         app.push(StampMenu(app, "Stamps", files, [*rows, CANCEL]))
 
     def _paste(self, path: Path) -> None:
-        with self.app.noting():
+        with self.app.errors_as_notices():
             self._tools.clipboard = level_stamp(open_source(path).draft)
             self._tools.paste()
 
     def _keep(self, stamp: Stamp, name: str) -> None:
-        with self.app.noting():
+        with self.app.errors_as_notices():
             path = free_path(self._folder, file_stem(name.strip(), "stamp"), SUFFIX)
             path.parent.mkdir(parents=True, exist_ok=True)
             save_draft(Source(Draft(Level())), with_stamp(Draft(Level(), name), stamp), path)
@@ -116,9 +116,9 @@ class StampCommands:
     def _rename(self, path: Path, name: str) -> None:
         stem = file_stem(name.strip(), path.stem)
         if stem != path.stem:
-            with self.app.noting():
+            with self.app.errors_as_notices():
                 path.rename(free_path(self._folder, stem, SUFFIX))
 
     def _delete(self, path: Path) -> None:
-        with self.app.noting():
+        with self.app.errors_as_notices():
             path.unlink(missing_ok=True)

@@ -35,7 +35,7 @@ from ninja_game.sim.grid import Cell, Point, is_inside
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 from ninja_game.sim.rules import CELL
-from ninja_game.ui.canvas import Camera, Colour, Lens
+from ninja_game.ui.canvas import WIDTH, Camera, Colour, Lens
 from ninja_game.ui.text_entry import DOUBLE_MS
 from ninja_game.ui.theme import Area, Palette, Theme
 from ninja_game.ui.widgets import Widget
@@ -199,13 +199,13 @@ class Overlay:
 class EditorLayout(NamedTuple):
     """Areas of the parts of the editor, logical px."""
 
-    toolbar: Area = (0, 0, 792, 26)
+    toolbar: Area = (0, 0, WIDTH, 26)
     level: Area = (6, 30, 602, 456)
     palette: Area = (610, 26, 182, 231)
     properties: Area = (610, 257, 182, 231)
     findings: Area = (6, 490, 602, 84)
     file: Area = (612, 490, 176, 84)
-    status: Area = (0, 579, 792, 21)
+    status: Area = (0, 579, WIDTH, 21)
 
 
 LAYOUT = EditorLayout()

@@ -147,7 +147,10 @@ class LevelPlay:
         self.killer = ""  #: one of ``deaths.KILLERS``
         self.crushed = False  #: whether the killer crushed the ninja
         for queue in self.queues:
-            queue.say_again() if self.playthrough.lead else queue.at_start()
+            if self.playthrough.lead:
+                queue.say_again()
+            else:
+                queue.at_start()
         self.spots.clear()
         self.notices: list[str] = []  #: sentences about what a pass has won
         self.next_par = self.playthrough.next_par()  #: next medal and its time, while the level waits

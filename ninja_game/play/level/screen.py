@@ -112,7 +112,7 @@ class LevelScreen(Screen):
         """Back to the level's start, at once; a level file that has changed is read again."""
         self.app.audio_output.quiet()
         self.playthrough.gave_up(self.attempt)
-        with self.app.noting("The changed level cannot be played: "):
+        with self.app.errors_as_notices("The changed level cannot be played: "):
             if self.playthrough.restart():
                 self._start_level()
                 self.app.notify("The level's file has changed: this is the new level")

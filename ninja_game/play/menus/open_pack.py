@@ -34,7 +34,7 @@ def open_pack(app: App, title: str) -> None:
 
 def paste_link(app: App, take: Take) -> None:
     """Take the link of a pack in the clipboard."""
-    with app.noting():
+    with app.errors_as_notices():
         text = pasted_text()
         if link_kind(text) != "pack":
             raise NinjaGameError("there is no link of a pack in the clipboard: copy all of it first")
@@ -56,7 +56,7 @@ class ZipsScreen(FilesScreen):
         """The newest zip is chosen at first."""
         super().look()
         zips = [path for path in self.paths if path.is_file()]
-        with self.app.noting():
+        with self.app.errors_as_notices():
             if zips and not self.list.index:
                 self.list.select(self.paths.index(max(zips, key=lambda path: path.stat().st_mtime)))
 

@@ -136,7 +136,7 @@ class PackDesk(ThumbnailScreen):
         ``name``: for undo; "": it cannot be undone.
         """
         done = False
-        with self.app.noting():
+        with self.app.errors_as_notices():
             if name and not self.packer.steps.run(name, action):
                 return False
             if not name:
@@ -168,7 +168,10 @@ class PackDesk(ThumbnailScreen):
 
     def edit_level(self, level: Entry) -> None:
         edit = partial(self.edit, level, None)
-        self.run_step(edit, "Edit") if Path(level.named.file).parent == self.path else edit()
+        if Path(level.named.file).parent == self.path:
+            self.run_step(edit, "Edit")
+        else:
+            edit()
 
     def ask_text_for(self, title: str, text: str, action: Callable[[str], object], needed: str = "") -> None:
         """Ask for a text, and change the pack with it. ``needed``: a notice where none is typed; then ask again."""

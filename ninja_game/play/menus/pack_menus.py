@@ -73,7 +73,7 @@ def pack_form(
     fields = [(key.capitalize(), getattr(signed, key), 200) for key in keys]
 
     def describe(texts: list[str]) -> None:
-        desk.app.know_author(index.author, texts[1])
+        desk.app.remember_author(index.author, texts[1])
         values = {key: text.strip() for key, text in zip(keys, texts, strict=True)}
 
         def change() -> None:

@@ -143,7 +143,7 @@ def prepare_shown(desk: PackDesk) -> None:
 
 def ask_for_new_pack(desk: PackDesk) -> None:
     def make(name: str, author: str = desk.player.settings.name) -> None:
-        desk.app.know_author("", author)
+        desk.app.remember_author("", author)
         desk.tray_key = "yours" if desk.player.catalogue.own() else "none"
         desk.new_path = packs.new_pack(desk.folder, name, author.strip())
 

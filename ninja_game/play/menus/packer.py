@@ -21,7 +21,7 @@ from ninja_game.levels.episodes import Entry, EpisodeSet
 from ninja_game.levels.findings import PackFinding
 from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.screen import Aside
+from ninja_game.play.screen import BackgroundTask
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.runtime import NewestJob, cores
 from ninja_game.sim.level import Level
@@ -31,7 +31,7 @@ NOT_FOUND = "no run found"  # the state of a level whose search has failed
 NOT_CERTIFIED = ("changed", "no run yet", "stopped")  # states of levels that may be impossible as they are
 
 
-class Packer(Aside):
+class Packer(BackgroundTask):
     """Makes a pack ready to share in the background, and keeps the steps done at the desk of packs."""
 
     def __init__(self, app: App) -> None:
@@ -310,8 +310,8 @@ class PackStatus:
 
 
 def packer_of(app: App) -> Packer:
-    for task in app.aside:
+    for task in app.background_tasks:
         if isinstance(task, Packer):
             return task
-    app.aside.append(packer := Packer(app))
+    app.background_tasks.append(packer := Packer(app))
     return packer

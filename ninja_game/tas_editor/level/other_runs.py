@@ -126,7 +126,7 @@ class OtherRuns:
             timeline.simulate(len(timeline))
             end, outcome = timeline.end
             editor.go(at)
-            now = timeline.ending or "no exit yet"
+            now = timeline.ending() or "no exit yet"
             if outcome == "dead" and end >= at:
                 editor.select(at, end + 1)
                 now += "; F searches other keys up to there"

@@ -104,7 +104,7 @@ class TakeOver:
         self.playing.stop()
         editor.session.timeline.ensure(editor.cursor)
         if self._ended(editor.cursor):
-            editor.app.notify(f"The run is over, {editor.session.timeline.ending}; take over in a tick before")
+            editor.app.notify(f"The run is over, {editor.session.timeline.ending()}; take over in a tick before")
             return
         editor.places[editor.track] = editor.cursor, editor.anchor
         editor.session.begin()

@@ -184,7 +184,7 @@ class RollCommands:
     def paste(self, *, between: bool = False) -> None:
         """Paste the clipboard's ticks over the present ones, or ``between``, and select them."""
         editor = self._editor
-        with editor.app.noting("Not pasted: "):
+        with editor.app.errors_as_notices("Not pasted: "):
             pasted = inputs_of_text(pasted_text(), "clipboard")
             first, count = editor.selection[0], len(pasted.keys)
             if editor.edit_selected(lambda track: _with_pasted(track, first, pasted, between=between)):

@@ -134,7 +134,7 @@ def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
             differs[tick - first],
             values[tick - first],
             timeline.events(tick),
-            timeline.death if tick == end else "",
+            timeline.death() if tick == end else "",
             editor.leads.get(tick),
             names.get(tick, ""),
             tick >= count,

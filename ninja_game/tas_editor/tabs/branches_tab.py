@@ -71,7 +71,7 @@ class BranchesTab(Tab):
     def keep(self) -> None:
         self.editor.tab = self.name
         session = self.editor.session
-        name = session.timeline.ending or f"branch {len(self.branches) + 1}"
+        name = session.timeline.ending() or f"branch {len(self.branches) + 1}"
 
         def kept(text: str) -> None:
             number = session.keep_branch(text.strip() or name)

@@ -87,7 +87,7 @@ class _Line(NamedTuple):
 
     top: float
     height: float
-    widgets: Sequence[Widget | None]  #: None: a gap
+    widgets: Sequence[Widget]  #: one of class Widget itself: the room of a text
     widths: Sequence[float]  #: 0: what the others leave
 
 
@@ -121,14 +121,16 @@ class SearchTab(Tab):
         self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self._forget = Button(UNPLACED, "", self.earlier.clear, size=8, hint="The results of earlier searches")
         self.list = Rows(self._draw_row, self._use_row, keeps=False, hint=_RESULT_HINT)
+        self._texts = span, goal, status, heads = [Widget(UNPLACED) for _ in range(4)]
         self._lines = (
-            _Line(4, 18, (None, selected, presets), (0, 96, 78)),
-            _Line(25, 18, (None, self.goal), (32, 0)),
+            _Line(4, 18, (span, selected, presets), (0, 96, 78)),
+            _Line(25, 18, (goal, self.goal), (32, 0)),
             _Line(46, 18, (order, self.measure, rest), (118, 0, 146)),
-            _Line(67, 18, (method, self._button), (150, 58)),
-            _Line(86, 13, (None, self._forget), (0, 76)),
+            _Line(67, 18, (method, self._button, status), (150, 58, 0)),
+            _Line(86, 13, (heads, self._forget), (0, 76)),
         )
-        self.widgets = [*(widget for line in self._lines for widget in line.widgets if widget), self.list]
+        placed = (widget for line in self._lines for widget in line.widgets)
+        self.widgets = [*(widget for widget in placed if widget not in self._texts), self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
         for line in self._lines:
@@ -358,11 +360,16 @@ class SearchTab(Tab):
         super().paint(surface, theme)
         palette, results, (x, y, w, h) = theme.palette, self.results, self.area
         first, last = self.span
-        theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
+        # Texts stand 2 px from the edges of their rooms.
+        span, goal, start, heads = (
+            (left + 2, top, width - 2) for left, top, width, _ in (text.area for text in self._texts)
+        )
+        theme.text(surface, f"Ticks {first} to {last - 1}", span[0], span[1] + 4, size=11, bold=True, width=120)
         if self.span_reason or (self.span != self.editor.selection and self.editor.anchor is not None):
             why = self.span_reason or "not the selection"
-            theme.text(surface, why, x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
-        theme.text(surface, "Goal", x + 6, y + 29, size=11)
+            left, width = span[0] + 126, span[2] - 126
+            theme.text(surface, why, left, span[1] + 5, size=SMALL, colour=palette.faint, width=width)
+        theme.text(surface, "Goal", goal[0], goal[1] + 4, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"
         status, colour = "Enter in the goal starts, too", palette.faint
         if results is not None:
@@ -370,7 +377,7 @@ class SearchTab(Tab):
             colour = palette.bad if results.search.problem else palette.text
             if results.first_behind is None:
                 status, colour = "edited since: a click takes it as it was", palette.bad
-        theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
+        theme.text(surface, status, start[0], start[1] + 5, size=SMALL, colour=colour, width=start[2])
         if self.pieces:
             note = PIECES
         elif results:
@@ -379,11 +386,12 @@ class SearchTab(Tab):
             note = "" if self.earlier else _EXPLAINED
         if self.better:
             for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
-                theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
+                theme.text(surface, head, at, heads[1] + 2, size=8, colour=palette.faint)
         elif self.list.count:
-            theme.text(surface, note, x + _LEFT + 4, y + 88, size=8, colour=palette.faint, width=w - 104)
+            left, width = x + _LEFT + 4, heads[2] - _LEFT
+            theme.text(surface, note, left, heads[1] + 2, size=8, colour=palette.faint, width=width)
         advice = results.advice if results else ""
-        top = y + 97 + (TAB_ROW + 4) * self.list.count
+        top = self.list.area[1] - 2 + (TAB_ROW + 4) * self.list.count
         lines = wrapped(theme, advice if self.list.count else note, w - 28, 10)
         for k, line in enumerate(lines if top + 15 * len(lines) <= y + h else ()):
             theme.text(surface, line, x + 10, top + 15 * k, size=10, colour=palette.faint)

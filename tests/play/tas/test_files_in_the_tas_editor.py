@@ -79,7 +79,7 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     assert at.app.notice.endswith("; its player is unknown")
     assert at.app.notice.startswith("Saved, without what is behind its exit: ")
     assert at.session.is_saved
-    assert at.session.tail_behind, "here it stays"
+    assert at.session.tail_behind(), "here it stays"
     assert verify_recording(load_replays(first)[0]).good
     assert load_replays(first)[0].replay.outcome == "exit"
     at.choose_in_menu("Keep as a replay")

@@ -259,7 +259,7 @@ def test_the_beginning_of_another_run_before_the_rest_of_this_one(at: TasDriver)
     assert editor.track.made.names == other.made.names
     text = f"Up to tick {joint - 1} {other.name}, then this run from its tick 120 on, not in the same state: "
     assert at.app.notice.startswith(text)
-    assert at.app.notice.endswith(f"Now: {at.session.timeline.ending or 'no exit yet'}")
+    assert at.app.notice.endswith(f"Now: {at.session.timeline.ending() or 'no exit yet'}")
     at.chord("z", pygame.KMOD_LCTRL)
     assert (editor.track, editor.cursor) == (mine, 120)
 
@@ -273,7 +273,7 @@ def test_where_a_joined_run_dies_the_ticks_from_the_joint_on_are_selected_for_a_
     end, outcome = at.session.timeline.end
     assert outcome == "dead"
     assert at.editor.selection == (5, end + 1)
-    assert at.app.notice.endswith(f"Now: {at.session.timeline.ending}; F searches other keys up to there")
+    assert at.app.notice.endswith(f"Now: {at.session.timeline.ending()}; F searches other keys up to there")
     at.press("f")
     tab = at.screen.tab
     assert isinstance(tab, SearchTab)

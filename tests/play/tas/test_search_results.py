@@ -171,7 +171,7 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: S
     row(at, tab, 0)
     assert at.session.timeline.end == (int(tab.better[0].score) - 1, "exit")
     assert len(at.editor.track) == int(tab.better[0].score), "it ends at the exit"
-    assert not at.session.tail_behind
+    assert not at.session.tail_behind()
     assert at.session.timeline.end[0] < end + 3
     assert tab.better[0].gold == at.session.timeline.column("gold")[at.session.timeline.end[0]]
     own = results.search.own
