@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, dist, inf
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.motion import Motion
 from ninja_game.editor.palette import EMPTY
 from ninja_game.editor.specs import BODY_PART, carried, grip, points
-from ninja_game.formats.messages import messages_at
+from ninja_game.formats.messages import Moment, messages_at, parse_messages, with_message_moved
 from ninja_game.sim.grid import Cell, Point, cell_of, is_inside
 from ninja_game.sim.kinds import DOOR, EXIT, LAUNCH_PAD, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
@@ -158,7 +158,10 @@ def reordered(draft: Draft, selection: Selection, by: int) -> tuple[Draft, Selec
 
 
 def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Selection]:
-    """The draft with the selection moved or turned, and the selection there. Moved tiles replace those under them."""
+    """The draft with the selection moved or turned, and the selection there. Moved tiles replace those under them.
+
+    A message near a place moves with the cells around it, one about a switch or a piece of gold with that.
+    """
     objects = list(draft.objects)
     chosen: dict[int, set[int]] = {}
     for number, part in selection.parts:
@@ -172,7 +175,20 @@ def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Se
         tiles |= copied(draft, Selection(selection.area)).carried(motion).tiles
         column, row, columns, rows = selection.area
         area = area_between(motion.cell((column, row)), motion.cell((column + columns - 1, row + rows - 1)))
-    return draft.with_tiles(tiles).with_objects(tuple(objects)), Selection(area, selection.parts)
+    after = draft.with_tiles(tiles).with_objects(tuple(objects))
+    return replace(after, says=_messages_moved(draft, selection, motion)), Selection(area, selection.parts)
+
+
+def _messages_moved(draft: Draft, selection: Selection, motion: Motion) -> str:
+    """The messages of a draft after a move of the selection; those that would leave the level stay."""
+    says = draft.says
+    cells = set(area_cells(selection.area)) if selection.area else set()
+    things = {cell_of(*points(draft.objects[number])[part]) for number, part in selection.parts}
+    for number, message in enumerate(parse_messages(says)):
+        moves = message.cell in (cells if message.when == Moment.AT else things)
+        if moves and is_inside(motion.cell(message.cell)):
+            says = with_message_moved(says, number, motion.cell(message.cell))
+    return says
 
 
 def arranged(draft: Draft, selection: Selection, axis: int, share: float | None) -> Draft:

@@ -145,14 +145,14 @@ def messages_at(says: str, cell: tuple[int, int]) -> list[LevelMessage]:
 
 
 def with_message_moved(says: str, number: int, cell: tuple[int, int]) -> str:
-    """A header's value with one of its messages, by number from 0, moved to another cell.
+    """A header's value with one of its messages, by number from 0, about another cell than before.
 
     >>> with_message_moved("start: Go | at 12,5 3x1 for 9 s: Jump: here", 1, (3, 4))
     'start: Go | at 3,4 3x1 for 9 s: Jump: here'
     """
     parts = [part.strip() for part in says.split(SEPARATOR)]
-    _, _, rest = parts[number].partition(",")
-    parts[number] = f"{Moment.AT} {cell[0]},{cell[1]}" + rest.lstrip("0123456789")
+    before, _, rest = parts[number].partition(",")
+    parts[number] = f"{before.split()[0]} {cell[0]},{cell[1]}" + rest.lstrip("0123456789")
     return f" {SEPARATOR} ".join(parts)
 
 

@@ -1,5 +1,6 @@
 """Operations of the editor: exact inverses, symmetric tiles and objects, selections that move and turn."""
 
+from dataclasses import replace
 from itertools import product
 
 import pytest
@@ -35,7 +36,7 @@ from ninja_game.editor.stamp import (
 )
 from ninja_game.formats.ascii.object_lines import ListedObject, read_object_line
 from ninja_game.sim.collision import tiles as shapes
-from ninja_game.sim.kinds import DOOR, NINJA
+from ninja_game.sim.kinds import DOOR, GOLD, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 from ninja_game.simulation import Simulation
 
@@ -282,6 +283,17 @@ def test_a_selection_takes_tiles_objects_and_single_parts() -> None:
     assert nearest_part(after, 133.0, 470.0, 17.0) == (door, 1)
     assert nearest_part(after, 133.0, 40.0, 17.0) is None
     assert len(removed(after, selection).objects) == len(SPECS) - 1
+
+
+def test_messages_move_with_the_cells_around_them_and_with_what_they_are_about() -> None:
+    gold = ObjectSpec(GOLD, (132.0, 108.0))
+    says = "start: Go | at 6,4 3x1 for 9 s: Here | gold 5,4!: Well | at 20,4: Far"
+    draft = replace(Draft(Level()).with_objects((gold,)), says=says)
+    around, alone = Selection((4, 3, 4, 4), frozenset({(0, 0)})), Selection(parts=frozenset({(0, 0)}))
+    both = "start: Go | at 8,4 3x1 for 9 s: Here | gold 7,4!: Well | at 20,4: Far"
+    for chosen, after in ((around, both), (alone, both.replace("at 8,4", "at 6,4"))):
+        assert moved(draft, chosen, Motion(dx=48.0))[0].says == after
+    assert moved(draft, around, Motion(dx=-240.0))[0].says == says, "none leaves the level"
 
 
 def test_the_whole_level_flipped_twice_is_the_same_level() -> None:

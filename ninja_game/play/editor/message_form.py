@@ -22,7 +22,7 @@ from ninja_game.ui.widgets import Button, Widget
 _LEFT, _TOP, _WIDTH = 36, 400, 432  # px
 
 MOMENT_TEXTS = {
-    Moment.START: ("At the start", "At each start, until the exit is open"),
+    Moment.START: ("At the start", "At each start, for its seconds, while the exit is closed"),
     Moment.SWITCH: ("Exit opens", "Once, when the ninja opens the exit"),
     Moment.GOLD: ("Gold is taken", "Once, when the ninja takes the first gold"),
     Moment.ALL_GOLD: ("All gold taken", "Once, when the ninja has taken the last gold"),
@@ -168,4 +168,7 @@ class MessageForm:
 
 
 def _text_hint(row: MessageRow) -> str:
+    round_words = [word for word in WORDS if f"({word})" in row.text]
+    if round_words and not row.unknown:
+        return f"({round_words[0]}) stays as it is: in braces, {{{round_words[0]}}}, it is replaced in play"
     return row.problem[1] if row.unknown else _NEW_LINE_HINT

@@ -244,9 +244,9 @@ class MessagesScreen(MenuScreen):
         return commands.get("ctrl+y" if keys == "ctrl+shift+z" else keys.replace("shift+", ""))
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Enter in a field of one line means OK."""
+        """Enter in a field of one line leads to the text."""
         if action == "confirm" and isinstance(self.focus, TextEntry):
-            self._accept()
+            self.focus_on_field(MessageField.TEXT)
         else:
             super().act(action, held=held)
 

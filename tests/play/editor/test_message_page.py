@@ -109,8 +109,17 @@ def test_a_message_stays_as_long_as_it_says_and_without_a_number_as_long_as_usua
     room.press("backspace")
     room.type("25")
     room.press("return")
+    assert screen.focus is screen.form.fields[MessageField.TEXT], "it does not close the page"
+    room.choose("OK")
     assert room.draft.says == "start for 25 s: on"
     assert opened(room).edited.source == room.draft.says
+
+
+def test_a_known_word_in_round_brackets_is_told_to_want_braces(room: Maker) -> None:
+    screen = opened(room, "start: (jump) now")
+    screen.focus_on_field(MessageField.TEXT)
+    room.frames(2)
+    assert "(jump) stays as it is: in braces, {jump}, it is replaced in play" in words(room)
 
 
 def test_all_messages_are_seen_in_a_list_in_which_one_is_selected(room: Maker) -> None:
