@@ -92,10 +92,10 @@ def test_the_menu_has_its_music_once_something_was_pressed(new_visitor: Callable
     visitor = new_visitor()
     visitor.visit()
     for again in (False, True):
-        assert visitor.python("app.audio_output._music.playing") == ""
+        assert visitor.python("app.audio_output.soundtrack.playing") == ""
         visitor.press("ArrowDown")
-        visitor.eventually("app.audio_output._music.playing == 'menu'")
-        visitor.eventually("__import__('pygame').mixer.Channel(app.audio_output._music.first).get_busy()")
+        visitor.eventually("app.audio_output.soundtrack.playing == 'menu'")
+        visitor.eventually("__import__('pygame').mixer.Channel(app.audio_output.soundtrack.first).get_busy()")
         if not again:
             # The second visit begins with the memory of the first one's start.
             visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => ninjaGame.kept)")
