@@ -181,7 +181,8 @@ def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Se
 
 def _messages_moved(draft: Draft, selection: Selection, motion: Motion) -> str:
     """The messages of a draft after a move of the selection; those that would leave the level stay."""
-    says = draft.says
+    if not (says := draft.says):
+        return ""
     cells = set(area_cells(selection.area)) if selection.area else set()
     things = {cell_of(*points(draft.objects[number])[part]) for number, part in selection.parts}
     for number, message in enumerate(parse_messages(says)):

@@ -89,10 +89,10 @@ class MessageChecks:
     def appearance(self, row: MessageRow) -> Appearance | None:
         """When a message comes in the known run; None: never, without such a run, or not known yet."""
         answer = self.known_run.result
-        valid = self._edited.valid
-        if not answer or answer.question != self._asked or row not in valid:
+        if not answer or answer.question != self._asked:
             return None
-        return answer.appearances[valid.index(row)]
+        valid = self._edited.valid
+        return answer.appearances[valid.index(row)] if row in valid else None
 
     def problem(self, row: MessageRow) -> str:
         """The problem of a message, "" if it has none. An empty field is one only after OK was refused."""
@@ -121,9 +121,10 @@ class MessageChecks:
     def _late_text(self, row: MessageRow, *, lost: bool) -> str:
         """That a message is lost to others in the known run, or else how late it is; '' if it is not."""
         moment = self.appearance(row) if self._edited.together(row)[0] is row else None
-        is_so = moment and (moment.tick is None) is lost
+        if not moment or (moment.tick is None) is not lost:
+            return ""
         names = [message_name(self._edited.rows.index(valid), valid.text) for valid in self._edited.valid]
-        return late_text(moment, len(self._certifying_inputs()), names) if moment and is_so else ""
+        return late_text(moment, len(self._certifying_inputs()), names)
 
     def _unseen(self, row: MessageRow) -> list[Finding]:
         return [] if row.problem[1] else [*unseen_messages(row.source, self._ground)]

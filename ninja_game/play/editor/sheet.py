@@ -360,8 +360,9 @@ def level_marks(
     def add(key: Hashable, make: Callable[[], LevelMark]) -> None:
         marks[key] = before[key] if key in before else make()
 
+    most = max(playtests.visits.values(), default=1)
     for cell, count in playtests.visits.items():
-        share = round(count / max(playtests.visits.values()), 1)
+        share = round(count / most, 1)
         add(("visit", cell, share), partial(visit_mark, canvas, palette, cell, share))
     for place in filter(lambda point: is_near(*point), playtests.deaths):
         add(("death", place), partial(death_mark, canvas, palette, place))
