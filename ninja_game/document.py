@@ -22,6 +22,16 @@ class OccupiedError(NinjaGameError):
     """A file that saving would replace, and that was not made by this document's last save."""
 
 
+def common_length(a: Sequence[object], b: Sequence[object]) -> int:
+    """How many items are the same from the beginning on.
+
+    >>> common_length("tonight", "today")
+    2
+    """
+    shorter = min(len(a), len(b))
+    return next((number for number in range(shorter) if a[number] != b[number]), shorter)
+
+
 def digest_of_file(path: Path) -> str:
     """The digest of a file's bytes; '' without a file."""
     return digest_of(read_bytes(path)) if path.exists() else ""

@@ -10,11 +10,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
-from itertools import takewhile
-from operator import eq
 from pathlib import Path
 
-from ninja_game.document import History, RecoveryFile, check_free, digest_of_file, recovered_from
+from ninja_game.document import History, RecoveryFile, check_free, common_length, digest_of_file, recovered_from
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import DAMAGED, LevelError, NinjaGameError
 from ninja_game.files.locking import remove_abandoned
@@ -364,8 +362,8 @@ class _Lines:
         before = len(old) - listed
         if not listed or old == objects:
             return most
-        at = sum(1 for _ in takewhile(bool, map(eq, old, objects)))
-        end = sum(1 for _ in takewhile(bool, map(eq, reversed(old[at:]), reversed(objects[at:]))))
+        at = common_length(old, objects)
+        end = common_length(old[at:][::-1], objects[at:][::-1])
         if at >= before:
             return min(most, before)
         if len(old) - end <= before:

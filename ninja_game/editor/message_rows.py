@@ -8,7 +8,7 @@ from enum import StrEnum
 from functools import lru_cache, partial
 from typing import Any
 
-from ninja_game.document import History
+from ninja_game.document import History, common_length
 from ninja_game.editor.stamp import CellArea, area_between
 from ninja_game.errors import LevelError
 from ninja_game.formats.messages import (
@@ -123,16 +123,6 @@ def messages_of(says: str) -> list[MessageRow]:
         MessageRow(m.when, _detail(m), m.text, f"{m.seconds:g}" if m.seconds else "", m.important)
         for m in parse_messages(says)
     ]
-
-
-def common_length(a: Sequence[object], b: Sequence[object]) -> int:
-    """How many items are the same from the beginning on.
-
-    >>> common_length("tonight", "today")
-    2
-    """
-    shorter = min(len(a), len(b))
-    return next((number for number in range(shorter) if a[number] != b[number]), shorter)
 
 
 class EditedMessages:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.playtests import PathPoints, route_of, run_of
 from ninja_game.errors import reason
-from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.pack.pars import grade_of
 from ninja_game.formats.run_time import seconds_text
 from ninja_game.levels.findings import Finding
 from ninja_game.runs.problems import passed_by
@@ -126,8 +126,7 @@ class Solver:
             vain = certification.progress if not (result or certification.run or certification.end) else None
             obstacles = (obstacle(certification.level, 0, vain),) if vain else ()
             if run := certification.run:
-                points = difficulty(certification.level, run.inputs)
-                certification.grade = Pars("", "", run.end_tick, difficulty=points).grade
+                certification.grade = grade_of(difficulty(certification.level, run.inputs))
         except BaseException as error:
             certification.finish(reason(error), failed=True)
             raise

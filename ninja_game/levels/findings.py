@@ -138,6 +138,8 @@ def pack_finding(code: str, file: str = "", line: int = 0, **values: object) -> 
     return PackFinding(code, file, line, values)
 
 
-def level_finding(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:
+def level_finding(
+    code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), message: int | None = None, **values: object
+) -> Finding:
     """Make a finding about a level; ``values``: the values of its text."""
-    return Finding(code, LEVEL_WORDINGS[code].text.format(**values), records, cells)
+    return Finding(code, LEVEL_WORDINGS[code].text.format(**values), records, cells, message=message)

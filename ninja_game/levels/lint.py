@@ -143,7 +143,7 @@ def unseen_messages(says: str, ground: Ground) -> Iterator[Finding]:
         elif message.place and not ground.comes_near(*message.middle, message.reach):
             why = "the ninja never comes near its place"
         if why:
-            yield level_finding("unseen-message", cells=cells, text=message.one_line, why=why)._replace(message=number)
+            yield level_finding("unseen-message", cells=cells, message=number, text=message.one_line, why=why)
 
 
 def _odd_tiles(level: Level) -> Iterator[Finding]:

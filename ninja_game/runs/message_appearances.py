@@ -52,7 +52,7 @@ def appearances(messages: Sequence[LevelMessage], level: Level, inputs: bytes) -
 
 def late_text(moment: Appearance, ticks: int, names: Sequence[str]) -> str:
     """The reason why a message cannot be read in time in a level's known run of ``ticks``; '' without one."""
-    other = dict(enumerate(names)).get(moment.other, "another message")
+    other = names[moment.other] if moment.other >= 0 else "another message"
     run = f"in the known run ({ticks / TICKS_PER_SECOND:.1f} s)"
     if moment.tick is None:
         return f"not shown {run}: {other} is read then"
@@ -91,7 +91,7 @@ def late_messages(level: Level, says: str, inputs: bytes) -> Iterator[Finding]:
         moment = message.when, message.number, message.cell
         if coming and coming.tick is None and moment not in past:
             cell, why = cell_of(*(message.place or coming.spot)), late_text(coming, len(inputs), names)
-            yield level_finding("late-message", cells=(cell,), text=message.one_line, why=why)._replace(message=number)
+            yield level_finding("late-message", cells=(cell,), message=number, text=message.one_line, why=why)
         past.add(moment)
 
 

@@ -32,6 +32,15 @@ DIGEST_DIGITS = 16  # digits of a digest in the table
 _HEADER = "# Made by `ninja-game levels pars` from the levels and their certificates: exit and gold in ticks.\n\n"
 
 
+def grade_of(difficulty: float) -> str:
+    """A difficulty in a word.
+
+    >>> [grade_of(points) for points in (0.2, 0.8, 5.0, 40.0)]
+    ['easy', 'easy', 'hard', 'extreme']
+    """
+    return next(word for below, word in DIFFICULTY_GRADES.items() if difficulty < below)
+
+
 @dataclass(frozen=True)
 class Pars:
     """Measurements of a level's certificates.
@@ -49,14 +58,8 @@ class Pars:
 
     @property
     def grade(self) -> str:
-        """The difficulty in a word, "" if it is unknown.
-
-        >>> [Pars("", "", 400, difficulty=points).grade for points in (None, 0.2, 0.8, 5.0, 40.0)]
-        ['', 'easy', 'easy', 'hard', 'extreme']
-        """
-        if self.difficulty is None:
-            return ""
-        return next(word for below, word in DIFFICULTY_GRADES.items() if self.difficulty < below)
+        """The difficulty in a word, "" if it is unknown."""
+        return "" if self.difficulty is None else grade_of(self.difficulty)
 
     def par(self, medal: str) -> int:
         """The last tick of an exit contact that still earns a medal with a margin, which difficulty widens.

@@ -7,8 +7,9 @@ from functools import partial
 
 import pygame
 
+from ninja_game.document import common_length
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.message_rows import EditedMessages, MessageField, common_length
+from ninja_game.editor.message_rows import EditedMessages, MessageField
 from ninja_game.formats.messages import IMPORTANT, MAX_MESSAGES, Moment
 from ninja_game.levels.episodes import Mood
 from ninja_game.play.app import App

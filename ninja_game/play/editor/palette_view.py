@@ -254,10 +254,10 @@ class PaletteView(Widget):
     def click(self, x: float, y: float) -> bool:
         entry = self._at(x, y)
         if entry is not None:
-            self._take(entry)
+            self.take(entry)
         return True
 
-    def _take(self, entry: PaletteEntry) -> None:
+    def take(self, entry: PaletteEntry) -> None:
         self.tools.pick_up(entry.spec if isinstance(entry, ObjectType) else entry)
 
     def hover(self, x: float, y: float) -> None:
@@ -270,7 +270,7 @@ class PaletteView(Widget):
             return
         entries: Sequence[PaletteEntry] = OBJECT_TYPES if tools.brush.draws_objects else TILE_ORDER
         place = entries.index(self._in_hand) if self._in_hand in entries else 0
-        self._take(entries[(place + by) % len(entries)])
+        self.take(entries[(place + by) % len(entries)])
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         canvas, palette = theme.canvas, theme.palette

@@ -8,8 +8,8 @@ import pygame
 
 from ninja_game.editor.brush import Tool
 from ninja_game.editor.files import Source
-from ninja_game.editor.palette import SNAPS, ObjectType, snapped
-from ninja_game.editor.specs import PROPERTIES_BY_KIND, properties, word
+from ninja_game.editor.palette import SNAPS, snapped
+from ninja_game.editor.specs import properties, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.play.app import App
 from ninja_game.play.editor.bars import StatusLine, Toolbar
@@ -152,7 +152,7 @@ class EditorScreen(WorkspaceScreen):
         if what is None:
             return False
         tools.selection = Selection()
-        tools.pick_up(what.spec if isinstance(what, ObjectType) else what)
+        self.palette.take(what)
         return True
 
     def _change_by_key(self, key: str) -> bool:
@@ -165,7 +165,7 @@ class EditorScreen(WorkspaceScreen):
 
     def _words_on(self, name: str, by: int) -> str:
         spec = next(subject for subject in self.session.tools.selected.subjects if name in properties(subject))
-        words, now = list(PROPERTIES_BY_KIND[spec.kind][name].words), word(spec, name)
+        words, now = list(properties(spec)[name].words), word(spec, name)
         return next_option(words, now if now in words else words[0], by)
 
     def update(self, real_ms: int) -> None:
