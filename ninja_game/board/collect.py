@@ -71,7 +71,7 @@ class Submission:
 
 
 def _parsed(text: str) -> tuple[Replay, int]:
-    """A replay, and ``claimed`` as in Sent. Raises NinjaGameError."""
+    """A replay, and ``claimed`` as in Submission. Raises NinjaGameError."""
     try:
         return parse_replay(text), -1
     except InputsAfterError as error:

@@ -312,7 +312,7 @@ class _Compared:
         self._runs.append(run)
 
     def likeness(self, run: Run) -> Likeness:
-        """The likeness of a run to the other player's run that it nearly copies; None if it does not."""
+        """The likeness of a run to another player's that it nearly copies; its text is empty if there is none."""
         fields = self._memo.recall(key := self._key_of(run))
         if isinstance(fields, dict) and {name: type(value) for name, value in fields.items()} == _LIKENESS_TYPES:
             return Likeness(**fields)

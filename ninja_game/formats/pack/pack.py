@@ -113,10 +113,10 @@ class PackFiles:
 
     def zipped(self) -> bytes:
         """The pack as a zip, the same bytes for the same files."""
-        data = BytesIO()
+        data, folder = BytesIO(), self.folder
         with ZipFile(data, "w", ZIP_DEFLATED) as file:
             for name in self.own_names:
-                entry = ZipInfo(f"{self.folder}/{name}")
+                entry = ZipInfo(f"{folder}/{name}")
                 entry.compress_type = ZIP_DEFLATED
                 file.writestr(entry, self.text(name))
         return data.getvalue()

@@ -207,10 +207,9 @@ class EpisodeGrid(ThumbnailScreen):
         self.marks = self.player.marks.all()
         self.passed = self.marks.keys() | self.player.marks.all(WITH_HELP).keys()
         self._selected(self.grid.index)
-        area = _LEFT, self._below, 208, 30
-        self.practice = setting_choice(self.app, area, "Practice mode", "practice", hint=PRACTICE_HINT)
-        area = _LEFT + 214, self._below, 104, 30
-        self.opener = Button(area, "Open a pack...", partial(open_pack, self.app, "Open a pack"))
+        practice, opener = self._areas_below
+        self.practice = setting_choice(self.app, practice, "Practice mode", "practice", hint=PRACTICE_HINT)
+        self.opener = Button(opener, "Open a pack...", partial(open_pack, self.app, "Open a pack"))
         self.opener.hint = "That somebody sent you: a zip, or a link"
         below = [] if self.previews else [self.practice, *in_page_or_not([], [self.opener])]
         problems = problems_button(self.app, (_LEFT, 546, _WIDTH, 18), lambda: self.problems)
@@ -232,8 +231,12 @@ class EpisodeGrid(ThumbnailScreen):
     def _set_pack(self, key: object) -> None:
         self._look_for_packs(str(key))
         self.grid.arrange(self.pack.episodes)
-        self.practice.area = _LEFT, self._below, 208, 30
-        self.opener.area = _LEFT + 214, self._below, 104, 30
+        self.practice.area, self.opener.area = self._areas_below
+
+    @property
+    def _areas_below(self) -> tuple[Area, Area]:
+        """Where the choice of practice and the button to open a pack lie: below the grid of this pack."""
+        return (_LEFT, self._below, 208, 30), (_LEFT + 214, self._below, 104, 30)
 
     def handle(self, event: InputEvent) -> None:
         if event.raw.type == pygame.DROPFILE and not self.previews:

@@ -28,7 +28,7 @@ MADE = "Made, and opened in the editor"
 def view(desk: PackDesk) -> None:
     """Show the episodes of the pack; those of the player's own packs as a new player sees them."""
     if desk.pack:
-        newcomer = None if desk.pack.received else desk.player.newcomer()
+        newcomer = None if desk.is_received else desk.player.newcomer()
         desk.app.push(EpisodeGrid(desk.app, desk.pack.key, newcomer))
 
 
@@ -57,7 +57,7 @@ def pack_rows(desk: PackDesk, pack: Pack) -> list[MenuRow]:
     ]
     return [
         ("Play it", play, without),
-        *(received if desk.pack and desk.pack.received else own),
+        *(received if desk.is_received else own),
         ("Delete the pack...", None if busy else lambda: _delete(desk, pack, name), deleting),
     ]
 

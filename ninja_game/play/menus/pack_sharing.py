@@ -103,11 +103,8 @@ def copy_the_link(desk: PackDesk) -> None:
     if not (desk.pack and pack):
         return
     copy = partial(copy_link, desk.app, pack.files.link, title=desk.pack.name)
-    without = [
-        level
-        for level in desk.pack.levels
-        if not desk.pack.received and desk.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)
-    ]
+    own = [] if desk.is_received else desk.pack.levels
+    without = [level for level in own if desk.status.state(level) in (*NOT_CERTIFIED, NOT_FOUND)]
     rows: list[MenuRow] = [
         ("Make ready first", partial(prepare_shown, desk), "Certifies them, and gives the link"),
         ("Copy all the same", copy, "Whoever gets it is not told whether they can be passed"),

@@ -165,7 +165,7 @@ class Packer(BackgroundTask):
         app, name, waited_for = self.app, ready.pack.name, self.waited_for
         title = f"{name} {ready.pack.index.version}".strip()
         over = self._earlier(title, ready.pack)
-        app.write_export(title, ".zip", ready.zipped, first=1, over=over)
+        app.write_export(title, ".zip", ready.zipped, first=1, over=over.files.path if over else None)
         self._zips.clear()
         notices = [app.notice]
         if ready.link and waited_for:
@@ -176,18 +176,19 @@ class Packer(BackgroundTask):
             notices[0] += f", with {counted(len(ready.problems), 'open problem')} ({', '.join(codes)})"
         self.text = self._result_text = "; ".join([*notices, *ready.notes])
 
-    def _earlier(self, title: str, pack: Pack) -> Path | None:
+    def _earlier(self, title: str, pack: Pack) -> Pack | None:
         """The export with this title if it is of the same pack: there is one zip of each version."""
         path = self.app.player.folder / EXPORTS / f"{file_stem(title, 'replay')}.zip"
         with suppress(NinjaGameError, OSError):
-            return path if Pack(path).index.title == pack.index.title else None
+            zipped = Pack(path)
+            return zipped if zipped.index.title == pack.index.title else None
         return None
 
     def next_version(self, pack: Pack) -> str:
         """The version to propose: 1, the pack's own, or the number after it if its zip has something else."""
         version = pack.index.version
         zipped = self._earlier(f"{pack.name} {version}", pack) if version.isdecimal() else None
-        return str(int(version) + 1) if zipped and not packs.same_pack(Pack(zipped), pack) else version or "1"
+        return str(int(version) + 1) if zipped and not packs.same_pack(zipped, pack) else version or "1"
 
     def follow(self, pack: Pack | None) -> None:
         """Drop the result of the work once the pack has changed since, or (None) is gone."""

@@ -214,13 +214,12 @@ class EntryField(TextEntry):
         return True
 
 
-def put_in_a_row(area: Area, widgets: Sequence[Widget | None], widths: Sequence[float]) -> None:
-    """Place widgets beside each other, 4 px apart. None leaves a gap; a width of 0 takes what the others leave."""
+def put_in_a_row(area: Area, widgets: Sequence[Widget], widths: Sequence[float]) -> None:
+    """Place widgets beside each other, 4 px apart. A width of 0 takes what the others leave."""
     x, y, w, h = area
     for widget, fixed in zip(widgets, widths, strict=True):
         width = fixed or w - sum(widths) - 4 * (len(widths) - 1)
-        if widget is not None:
-            widget.area = x, y, width, h
+        widget.area = x, y, width, h
         x += width + 4
 
 
