@@ -33,7 +33,7 @@ def test_who_slips_down_a_wall_twice_sees_what_the_keys_do_at_it() -> None:
     assert climb(SLIP * 2)[0] == [right]
     assert climb(SLIP * 2 + ".*500 " + SLIP * 2)[0] == [right, right], "it comes back"
     assert climb(2 * ".*40 L*12 LJ*20 L*20 R*60 ")[0] == [left]
-    assert climb(".*40 R*12 RJ*20 R*20 L*60 " + ".*40 RJ*30 .*40 " * 6)[0] == []
+    assert climb(SLIP + ".*40 RJ*30 .*40 " * 6)[0] == []
 
 
 def test_help_with_walls_is_gone_once_the_climb_is_done() -> None:

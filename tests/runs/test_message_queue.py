@@ -82,7 +82,7 @@ def test_each_text_has_its_moment() -> None:
 
 
 def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> None:
-    messages = MessageQueue(parse_messages("start: go | gold: gold"))
+    messages = queue_of("start: go | gold: gold")
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,500,564"))
     seen = []
     for tick in range(START_TICKS + USUAL_TICKS + 1):
@@ -92,7 +92,7 @@ def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> No
     assert [text for _, text in seen] == ["gold", ""]
     messages.at_start()
     assert messages.text == "go"
-    messages = MessageQueue(parse_messages("start: go | death 1: again"))
+    messages = queue_of("start: go | death 1: again")
     messages.on_death()
     messages.at_start()
     assert messages.text == "again"
@@ -103,7 +103,7 @@ def test_what_interrupts_a_text_of_the_start_ends_it_till_the_next_start() -> No
 def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     says = "start: one | start: two | switch: three | switch: four"
     simulation = Simulation(parse_level_string("0" * 713 + "|5^100,566!0^120,566!11^400,564,700,564"))
-    messages = MessageQueue(parse_messages(says))
+    messages = queue_of(says)
     heard = [(0, messages.text)]
     simulation.step_keys(0)
     ticks = range(1, START_TICKS + 9)
@@ -116,7 +116,7 @@ def test_several_texts_of_one_moment_are_said_one_after_the_other() -> None:
     heard = [(tick, messages.text) for tick in range(START_TICKS) if messages.on_tick(simulation.world)]
     assert messages.text == ""
     assert [text for _, text in heard] == ["four", ""], "and no more of the start, which is understood"
-    quick = MessageQueue(parse_messages("switch: one | switch: two | gold: three"))
+    quick = queue_of("switch: one | switch: two | gold: three")
     texts = []
     for kind in (EXIT_OPENED, GOLD_TAKEN, None):
         simulation.world.event_count = int(kind is not None)
@@ -216,7 +216,7 @@ def test_text_at_a_place_is_said_there_only() -> None:
     ],
 )  # fmt: skip
 def test_text_at_a_place_fades_when_the_ninja_has_left_and_it_was_read(source: str, stays: int, ticks: int) -> None:
-    queued = MessageQueue(parse_messages(f"at 3,22{source}: Here"))
+    queued = queue_of(f"at 3,22{source}: Here")
     ninja = (world := Simulation(room_level(["#@..#"], ())).world).ninja
     ninja.x, ninja.y = 84.0, 540.0
     assert queued.on_tick(world)

@@ -18,7 +18,7 @@ from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.packs import lint, read_pack_certificate
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.verify import STRICT
-from tests.support.own_pack import PACK
+from tests.support.own_pack import PACK, rewrite
 
 FIRST = "00-0-run-and-hop"
 
@@ -33,12 +33,6 @@ def findings(pack: Path) -> list[str]:
     return [text.replace(f"{pack}/", "") for text in found]
 
 
-def change(path: Path, old: str, new: str) -> None:
-    text = path.read_text("utf-8")
-    assert old in text
-    path.write_text(text.replace(old, new), "utf-8")
-
-
 def test_nothing_is_odd_about_the_pack_of_the_tests(pack: Path) -> None:
     assert findings(pack) == []
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
@@ -46,8 +40,8 @@ def test_nothing_is_odd_about_the_pack_of_the_tests(pack: Path) -> None:
 
 
 def test_index_is_looked_at(pack: Path) -> None:
-    change(pack / "pack.toml", 'author = "the ninja-game developers"\n', "")
-    change(pack / "pack.toml", '"01-2-no-hurry.txt"', '"gone.txt"')
+    rewrite(pack / "pack.toml", 'author = "the ninja-game developers"\n', "")
+    rewrite(pack / "pack.toml", '"01-2-no-hurry.txt"', '"gone.txt"')
     with (pack / "pack.toml").open("a") as index:
         index.write('[[episode]]\nnumber = 12\nname = "Learning to fall"\n')
     assert findings(pack) == [
@@ -70,7 +64,7 @@ def test_index_is_looked_at(pack: Path) -> None:
 def test_levels_are_looked_at(pack: Path) -> None:
     shutil.copy(pack / f"{FIRST}.txt", pack / "00-1-again.txt")
     (pack / "00-1-stone-to-stone.txt").unlink()
-    change(pack / "00-2-wall-to-wall.txt", "name: Wall to Wall\n", "")
+    rewrite(pack / "00-2-wall-to-wall.txt", "name: Wall to Wall\n", "")
     (pack / "00-3-long-slope.txt").write_text("ninja-game level 1\nnonsense")
     found = findings(pack)
     for expected in (
@@ -92,7 +86,7 @@ def test_certificates_of_a_level_that_cannot_be_read_are_not_strays(pack: Path) 
 
 
 def test_findings_are_accepted_with_a_reason(pack: Path) -> None:
-    change(pack / "00-2-wall-to-wall.txt", "name: Wall to Wall\n", "")
+    rewrite(pack / "00-2-wall-to-wall.txt", "name: Wall to Wall\n", "")
     accept = '[[accept]]\nfile = "{}"\ncode = "no-name"\nreason = "found on the street"\n'
     with (pack / "pack.toml").open("a", encoding="utf-8") as index:
         index.write(accept.format("00-2-wall-to-wall.txt") + accept.format("00-0-run-and-hop.txt"))
@@ -116,15 +110,15 @@ def test_of_gold_out_of_reach_it_is_reported_once(pack: Path) -> None:
 
 
 def test_the_order_of_levels_is_looked_at(pack: Path) -> None:
-    change(pack / "pars.toml", "difficulty = 0.39", "difficulty = 5.00")
+    rewrite(pack / "pars.toml", "difficulty = 0.39", "difficulty = 5.00")
     before = "00-0-run-and-hop.txt: hard, harder than 00-1-stone-to-stone.txt (easy), but comes right before it"
     assert findings(pack) == [before, "00-0-run-and-hop.txt: hard: the first level is the hardest of the pack"]
     for code in ("hard-before-easy", "hardest-first"):
         accept(pack, f"{FIRST}.txt", code, "a wall to begin with")
     assert findings(pack) == []
-    change(pack / "pars.toml", "difficulty = 2.48", "difficulty = 6.00")
+    rewrite(pack / "pars.toml", "difficulty = 2.48", "difficulty = 6.00")
     assert findings(pack) == [], "what is accepted may be gone"
-    change(pack / "01-0-up-and-away.txt", "name: Up and Away", "name: watch and go")
+    rewrite(pack / "01-0-up-and-away.txt", "name: Up and Away", "name: watch and go")
     assert "01-1-watch-and-go.txt: the same name as 01-0-up-and-away.txt" in findings(pack)
 
 
@@ -164,7 +158,7 @@ def test_a_link_in_a_pack_is_no_part_of_it(pack: Path, tmp_path: Path) -> None:
 
 def test_certificates_are_run(pack: Path) -> None:
     certificates = pack / "certificates"
-    change(pack / "00-1-stone-to-stone.txt", "@", ".")
+    rewrite(pack / "00-1-stone-to-stone.txt", "@", ".")
     (certificates / "00-2-wall-to-wall.exit.replay.txt").write_text("nonsense")
     shutil.copy(certificates / f"{FIRST}.exit.replay.txt", certificates / f"{FIRST}.gold.replay.txt")
     short = load_replays(certificates / "01-0-up-and-away.exit.replay.txt")[0]
@@ -199,18 +193,18 @@ def test_pars_are_made_by_a_command_and_told_when_they_are_stale(pack: Path) -> 
     assert "8 levels with pars, 0 without a sound certificate" in result.output
     assert Pack(pack).pars == before
     assert findings(pack) == []
-    change(pack / "pars.toml", "exit = 156", "exit = 150")
+    rewrite(pack / "pars.toml", "exit = 156", "exit = 150")
     assert findings(pack) == ["pars.toml: medal times of other levels or certificates"]
 
 
 def test_pars_of_a_changed_level_count_no_more(pack: Path) -> None:
     assert isinstance(Pack(pack).pars[f"{FIRST}.txt"], Pars)
-    change(pack / f"{FIRST}.txt", "ooo", "oo.")
+    rewrite(pack / f"{FIRST}.txt", "ooo", "oo.")
     assert f"{FIRST}.txt" not in Pack(pack).pars
 
 
 def test_pack_that_cannot_be_read_ends_with_its_line(pack: Path) -> None:
-    change(pack / "pack.toml", "number = 1\n", "number = 0\n")
+    rewrite(pack / "pack.toml", "number = 1\n", "number = 0\n")
     result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
     assert result.exit_code == 2
     assert "pack.toml:12: episode 0 is there twice; found line 8 too" in result.output

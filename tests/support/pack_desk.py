@@ -17,12 +17,7 @@ from ninja_game.play.menus.problems import Problem, ProblemsScreen
 from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn
 from tests.support.menu_driver import MenuDriver
-from tests.support.own_pack import PACK
-
-
-def rewrite(path: Path, old: str, new: str, count: int = -1) -> None:
-    """Replace a text in a file."""
-    path.write_text(path.read_text("utf-8").replace(old, new, count), "utf-8")
+from tests.support.own_pack import PACK, rewrite
 
 
 def texts_of(folder: Path) -> dict[str, bytes]:

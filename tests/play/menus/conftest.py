@@ -8,7 +8,8 @@ import pytest
 from ninja_game.levels.findings import pack_finding
 from ninja_game.play.menus.packs import PackScreen
 from tests.support.menu_driver import MenuDriver
-from tests.support.pack_desk import Desk, rewrite
+from tests.support.own_pack import rewrite
+from tests.support.pack_desk import Desk
 
 
 @pytest.fixture

@@ -8,7 +8,8 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menu_screen import MenuScreen
 from ninja_game.play.menus.browser import Browser
 from tests.support.draw_log import drawn
-from tests.support.pack_desk import Desk, rewrite, texts_of
+from tests.support.own_pack import rewrite
+from tests.support.pack_desk import Desk, texts_of
 
 
 def test_the_authors_run_of_ones_own_level_needs_no_medal(desk: Desk) -> None:

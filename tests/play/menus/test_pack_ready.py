@@ -21,7 +21,8 @@ from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.packs import PackScreen
 from ninja_game.play.menus.problems import ProblemsScreen
 from tests.support.draw_log import drawn, notice_box
-from tests.support.pack_desk import Desk, rewrite
+from tests.support.own_pack import rewrite
+from tests.support.pack_desk import Desk
 from tests.support.waiting import LONGEST
 
 

@@ -23,8 +23,8 @@ from ninja_game.play.menus.packs import PackScreen
 from ninja_game.player.player_data import save_work
 from tests.support.draw_log import drawn, notice_box
 from tests.support.menu_driver import MenuDriver
-from tests.support.own_pack import PACK
-from tests.support.pack_desk import Desk, rewrite, texts_of
+from tests.support.own_pack import PACK, rewrite
+from tests.support.pack_desk import Desk, texts_of
 
 
 def test_a_pack_comes_by_its_link_and_by_ctrl_v(desk: Desk, screen: PackScreen) -> None:
@@ -69,7 +69,7 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
     drop()
     assert desk.app.notice.startswith("Laundry: kept among your packs, in ")
     assert [(each.name, each.received) for each in screen.own_packs] == [("Laundry", True)]
-    before = {file: file.read_bytes() for file in desk.path.rglob("*") if file.is_file()}
+    before = texts_of(desk.path)
     (made / "00-0-run-and-hop.txt").unlink()
     (made / "00-1-stone-to-stone.txt").write_text((made / "01-0-up-and-away.txt").read_text("utf-8"), "utf-8")
     packs.new_level(made, "Fresh", "me")
@@ -87,7 +87,7 @@ def test_another_version_of_a_received_pack_updates_it(desk: Desk, tmp_path: Pat
     assert Pack(desk.path).index.version == "1.1"
     assert packs.same_pack(Pack(desk.path), Pack(made))
     desk.chord("z", pygame.KMOD_CTRL)
-    assert {file: file.read_bytes() for file in desk.path.rglob("*") if file.is_file()} == before
+    assert texts_of(desk.path) == before
     drop()
     desk.choose("Keep both")
     assert [each.name for each in screen.own_packs] == ["Laundry", "Laundry, 1.1"]

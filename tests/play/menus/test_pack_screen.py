@@ -35,8 +35,8 @@ from ninja_game.ui.input.gamepad import BUTTONS
 from ninja_game.ui.theme import Area
 from tests.support.draw_log import drawn, notice_box, px
 from tests.support.level_maker import ROOM
-from tests.support.own_pack import PACK
-from tests.support.pack_desk import Desk, rewrite, texts_of, titles
+from tests.support.own_pack import PACK, rewrite
+from tests.support.pack_desk import Desk, texts_of, titles
 from tests.support.waiting import LONGEST
 
 
@@ -638,18 +638,13 @@ def test_the_editor_leads_to_the_packs_and_edits_what_is_opened_there(
         "it follows its file"
     )
     editor.session.tools.history.change(editor.session.draft.with_tiles({(9, 9): 1}))
-    shown = shelves_of_the_editor()
-    for _ in range(2):
-        desk.click(shown.shelves.row_area(1))
-    desk.choose("Cancel")
-    assert desk.top() is editor
-    assert editor.session.name == "Mine"
-    shown = shelves_of_the_editor()
-    for _ in range(2):
-        desk.click(shown.shelves.row_area(1))
-    desk.choose("Discard changes")
-    assert desk.top() is editor
-    assert editor.session.name == "Run and Hop"
+    for answer, name in (("Cancel", "Mine"), ("Discard changes", "Run and Hop")):
+        shown = shelves_of_the_editor()
+        for _ in range(2):
+            desk.click(shown.shelves.row_area(1))
+        desk.choose(answer)
+        assert desk.top() is editor
+        assert editor.session.name == name
     shelves_of_the_editor()
     desk.choose("Problems")
     page = desk.problem_page()
